@@ -1,0 +1,17 @@
+#pragma once
+
+#include <mpi.h>
+
+namespace seedflow {
+
+/// What `./seedflow bench locate` measures.
+struct PointLocationRate {
+  unsigned int n_cells = 0, n_points = 0;
+  double look_up_ms = 0;  ///< all points to their cells, median over repeats [ms]
+  double build_ms = 0;    ///< the table, once per mesh change [ms]
+};
+
+/// 800 clusters of 70 points (seeds of sub-spheres) in a box refined to about 50,000 cells.
+PointLocationRate measure_point_location(MPI_Comm communicator);
+
+}  // namespace seedflow
