@@ -1,0 +1,86 @@
+#pragma once
+
+#include <deal.II/distributed/tria.h>
+#include <deal.II/fe/mapping.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "seedflow/base/parameters.h"
+
+namespace seedflow {
+
+/// What the air fills: a box of named sides, or a Gmsh mesh. Section "Air domain".
+struct DomainParameters {
+  std::string mesh_file;               ///< "" = the box below
+  Vec3 lower{0, 0, 0};                 ///< [m]
+  Vec3 upper{1, 1, 1};                 ///< [m]
+  std::vector<double> cells{8, 8, 8};  ///< coarse cells per direction, whole numbers
+  int refinements = 0;                 ///< uniform refinements after reading or building the coarse mesh
+  /// Pairs of opposite sides joined to one another, each "left-right".
+  std::vector<std::string> periodic;
+
+  void declare(Parameters& parameters);
+};
+
+/// The meshed domain of the air, distributed over the ranks, with names for its sides.
+///
+/// The sides of a box are left/right (x-/x+), front/back (y-/y+), bottom/top (z-/z+); in two dimensions left/right and
+/// bottom/top (y-/y+). The sides of a Gmsh mesh carry the names of its physical groups.
+///
+/// Errors: InputError for an empty box, an unreadable or unnamed mesh, an unknown side, more ranks than cells.
+template <int dim>
+class Domain {
+ public:
+  using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+  /// Two sides joined, and the direction (0, 1, 2) along which they face one another.
+  struct Periodicity {
+    std::string first, second;
+    int direction;
+  };
+
+  Domain(const DomainParameters& parameters, MPI_Comm comm);
+  /// From a coarse mesh whose boundary ids are named by `names`.
+  Domain(const dealii::Triangulation<dim>& coarse, const std::map<dealii::types::boundary_id, std::string>& names,
+         const std::vector<std::string>& periodic, MPI_Comm comm);
+
+  Triangulation& triangulation() { return *mesh; }
+  const Triangulation& triangulation() const { return *mesh; }
+  const dealii::Mapping<dim>& mapping() const { return *map; }
+  MPI_Comm communicator() const { return mesh->get_communicator(); }
+
+  const std::map<dealii::types::boundary_id, std::string>& sides() const { return side_names; }
+  /// Errors: InputError naming the nearest side.
+  dealii::types::boundary_id side(const std::string& name) const;
+  bool is_periodic(const std::string& name) const;
+  const std::vector<Periodicity>& periodicities() const { return joined; }
+
+  double volume() const;         ///< [m^dim], all ranks
+  double min_cell_size() const;  ///< shortest edge [m], all ranks
+
+  /// Errors: InputError if a rank would have no cell.
+  void require_cells_for_all_ranks() const;
+
+  /// The mesh as p4est files with this prefix; all ranks. load() needs the same coarse mesh, freshly constructed and
+  /// never refined.
+  void save(const std::string& prefix) const;
+  void load(const std::string& prefix);
+
+  /// The locally owned active cells in hierarchical (Z) order: unlike the traversal order it depends on the mesh
+  /// alone and not on how refinement led to it. Each is given by its number in the traversal order.
+  std::vector<typename Triangulation::active_cell_iterator> cells_in_z_order() const;
+
+ private:
+  void finish(const std::vector<std::string>& periodic);
+
+  std::unique_ptr<Triangulation> mesh;
+  std::unique_ptr<dealii::Mapping<dim>> map;
+  std::map<dealii::types::boundary_id, std::string> side_names;
+  std::vector<Periodicity> joined;
+};
+
+}  // namespace seedflow
