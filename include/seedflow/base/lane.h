@@ -1,0 +1,50 @@
+#pragma once
+
+/// SIMD lanes of doubles by the compiler's vector extensions (GCC, Clang). The width follows the instruction
+/// set the file is compiled for: 8 with AVX-512, 4 with AVX, else 2 (SSE2, NEON). Arithmetic operators,
+/// comparisons (giving masks) and mixing with scalars come from the compiler; v[i] reads or writes one lane.
+
+namespace seedflow {
+
+#if defined(__AVX512F__)
+inline constexpr int lane_width = 8;
+#elif defined(__AVX__)
+inline constexpr int lane_width = 4;
+#else
+inline constexpr int lane_width = 2;
+#endif
+
+typedef double Lanes __attribute__((vector_size(lane_width * sizeof(double))));
+typedef long long LaneMask
+    __attribute__((vector_size(lane_width * sizeof(long long))));  ///< -1 true, 0 false
+
+#define SEEDFLOW_INLINE inline __attribute__((always_inline))
+
+SEEDFLOW_INLINE Lanes broadcast(double a) {
+  return Lanes{} + a;
+}
+
+/// mask ? a : b in each lane.
+SEEDFLOW_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
+  return mask ? a : b;
+}
+SEEDFLOW_INLINE Lanes lane_max(Lanes a, Lanes b) {
+  return a > b ? a : b;
+}
+SEEDFLOW_INLINE Lanes lane_min(Lanes a, Lanes b) {
+  return a < b ? a : b;
+}
+
+SEEDFLOW_INLINE Lanes lane_sqrt(Lanes a) {
+  Lanes r;
+  for (int i = 0; i < lane_width; ++i) r[i] = __builtin_sqrt(a[i]);
+  return r;
+}
+
+SEEDFLOW_INLINE double lane_sum(Lanes a) {
+  double s = 0;
+  for (int i = 0; i < lane_width; ++i) s += a[i];
+  return s;
+}
+
+}  // namespace seedflow

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "seedflow/base/lane.h"
+#include "seedflow/base/quaternion.h"
+#include "seedflow/base/vector.h"
+
+namespace seedflow {
+
+/// One three-component vector per lane; a lane is a seed.
+struct LaneVec3 {
+  Lanes x = {}, y = {}, z = {};
+
+  void set(int lane, const Vec3& a) { x[lane] = a.x, y[lane] = a.y, z[lane] = a.z; }
+  void add(int lane, const Vec3& a) { x[lane] += a.x, y[lane] += a.y, z[lane] += a.z; }
+  Vec3 get(int lane) const { return {x[lane], y[lane], z[lane]}; }
+};
+
+/// One unit quaternion per lane.
+struct LaneQuaternion {
+  Lanes w = Lanes{} + 1.0;
+  LaneVec3 v;
+
+  void set(int lane, const Quaternion& q) { w[lane] = q.w, v.set(lane, q.v); }
+  Quaternion get(int lane) const { return {w[lane], v.get(lane)}; }
+};
+
+SEEDFLOW_INLINE LaneVec3 operator+(const LaneVec3& a, const LaneVec3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+SEEDFLOW_INLINE LaneVec3 operator-(const LaneVec3& a, const LaneVec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+SEEDFLOW_INLINE LaneVec3 operator*(Lanes s, const LaneVec3& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+SEEDFLOW_INLINE LaneVec3 operator*(double s, const LaneVec3& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+SEEDFLOW_INLINE LaneVec3& operator+=(LaneVec3& a, const LaneVec3& b) {
+  return a.x += b.x, a.y += b.y, a.z += b.z, a;
+}
+SEEDFLOW_INLINE LaneVec3& operator-=(LaneVec3& a, const LaneVec3& b) {
+  return a.x -= b.x, a.y -= b.y, a.z -= b.z, a;
+}
+SEEDFLOW_INLINE Lanes dot(const LaneVec3& a, const LaneVec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+SEEDFLOW_INLINE LaneVec3 cross(const LaneVec3& a, const LaneVec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+SEEDFLOW_INLINE LaneVec3 broadcast(const Vec3& a) {
+  return {broadcast(a.x), broadcast(a.y), broadcast(a.z)};
+}
+
+SEEDFLOW_INLINE LaneQuaternion operator*(const LaneQuaternion& a, const LaneQuaternion& b) {
+  return {a.w * b.w - dot(a.v, b.v), a.w * b.v + b.w * a.v + cross(a.v, b.v)};
+}
+
+/// The same body-frame vector carried into the lab frame of every lane: a + 2 w (v x a) + 2 v x (v x a).
+SEEDFLOW_INLINE LaneVec3 rotate(const LaneQuaternion& q, const LaneVec3& a) {
+  const LaneVec3 t = 2.0 * cross(q.v, a);
+  return a + q.w * t + cross(q.v, t);
+}
+SEEDFLOW_INLINE LaneVec3 rotate_back(const LaneQuaternion& q, const LaneVec3& a) {
+  const LaneVec3 t = 2.0 * cross(a, q.v);
+  return a + q.w * t + cross(t, q.v);
+}
+
+/// q turned by the small rotation vector `angle` (lab frame, rad). Sine and cosine of the half angle by their
+/// series up to the eighth order: exact to 1e-16 for |angle| < 0.05; then one Newton step to unit length.
+SEEDFLOW_INLINE LaneQuaternion turned(const LaneQuaternion& q, const LaneVec3& angle) {
+  const LaneVec3 half = 0.5 * angle;
+  const Lanes y = dot(half, half);
+  const Lanes c = 1.0 - y * (1.0 / 2 - y * (1.0 / 24 - y * (1.0 / 720 - y * (1.0 / 40320))));
+  const Lanes s = 1.0 - y * (1.0 / 6 - y * (1.0 / 120 - y * (1.0 / 5040)));
+  LaneQuaternion r = LaneQuaternion{c, s * half} * q;
+  const Lanes n = 1.5 - 0.5 * (r.w * r.w + dot(r.v, r.v));
+  return {n * r.w, n * r.v};
+}
+
+}  // namespace seedflow

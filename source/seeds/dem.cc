@@ -1,0 +1,124 @@
+#include "seedflow/seeds/dem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "seedflow/base/error.h"
+#include "seedflow/seeds/motion.h"
+
+namespace seedflow {
+
+Dem::Dem(const DemParameters& dem_parameters) : parameters(dem_parameters) {}
+
+SphereLanes& Dem::lanes_of(int seed, int sphere, int& lane) {
+  SeedStore& s = store[slots[seed].store];
+  lane = slots[seed].slot % lane_width;
+  return s.block(slots[seed].slot / lane_width)[sphere];
+}
+
+const SphereLanes& Dem::lanes_of(int seed, int sphere, int& lane) const {
+  return const_cast<Dem*>(this)->lanes_of(seed, sphere, lane);
+}
+
+void Dem::set_loads(const SphereLoads& loads) {
+  const auto fits = [&](const auto& v, const char* name) {
+    if (!v.empty() && v.size() != static_cast<std::size_t>(n_spheres()))
+      throw InputError("Loads on the seeds: '" + std::string(name) + "' has " + std::to_string(v.size()) +
+                       " entries, expected 0 or one per sub-sphere (" + std::to_string(n_spheres()) + ").");
+  };
+  fits(loads.force, "force");
+  fits(loads.torque, "torque");
+  fits(loads.drag_coefficient, "drag_coefficient");
+  fits(loads.flow_velocity, "flow_velocity");
+  fits(loads.added_mass, "added_mass");
+  const auto all_non_negative = [](const std::vector<double>& v) {
+    return std::all_of(v.begin(), v.end(), [](double a) { return a >= 0; });
+  };
+  if (!all_non_negative(loads.drag_coefficient) || !all_non_negative(loads.added_mass))
+    throw RunError("Loads on the seeds at t = " + std::to_string(now) +
+                   " s: a drag coefficient or added mass is negative or not a number.");
+  for (SeedStore& s : store) s.load.resize(s.sphere.size());
+  for (int seed = 0, k = 0; seed < n_seeds(); ++seed) {
+    SeedStore& s = store[slots[seed].store];
+    const int lane = slots[seed].slot % lane_width;
+    LoadLanes* const own = s.loads(slots[seed].slot / lane_width);
+    for (int i = 0; i < s.n_spheres(); ++i, ++k) {
+      own[i].force.set(lane, loads.force.empty() ? Vec3{} : loads.force[k]);
+      own[i].torque.set(lane, loads.torque.empty() ? Vec3{} : loads.torque[k]);
+      own[i].flow.set(lane, loads.flow_velocity.empty() ? Vec3{} : loads.flow_velocity[k]);
+      own[i].drag[lane] = loads.drag_coefficient.empty() ? 0.0 : loads.drag_coefficient[k];
+      own[i].added_mass[lane] = loads.added_mass.empty() ? 0.0 : loads.added_mass[k];
+    }
+  }
+  load_step = 0;
+}
+
+void Dem::relax_factors(double step) {
+  if (load_step == step) return;
+  const auto relaxed = [](double z) { return z > 0 ? -std::expm1(-z) / z : 1.0; };
+  for (SeedStore& s : store)
+    for (std::size_t k = 0; k < s.load.size(); ++k) {
+      LoadLanes& l = s.load[k];
+      const double mass = s.model.sphere_mass[k % s.n_spheres()];
+      for (int lane = 0; lane < lane_width; ++lane) {
+        const double z = l.drag[lane] * step / (mass + l.added_mass[lane]);
+        l.relaxed_full[lane] = relaxed(z);
+        l.relaxed_half[lane] = relaxed(0.5 * z);
+      }
+    }
+  load_step = step;
+}
+
+void Dem::sum_forces(double step) {
+  for (std::size_t t = 0; t < store.size(); ++t)
+    if (!store[t].rigid)
+      for (int b = 0; b < store[t].n_blocks(); ++b) bonds[t].add_forces(store[t].block(b), b, step);
+}
+
+void Dem::move(const MotionStep& motion) {
+  double fastest = 0;
+  for (SeedStore& s : store)
+    for (int b = 0; b < s.n_blocks(); ++b) fastest = std::max(fastest, move_bonded(s, b, motion));
+  largest_speed = std::sqrt(fastest);
+}
+
+void Dem::advance(double duration) {
+  if (!(duration > 0) || n_seeds() == 0) return;
+  const long n = std::max(1L, std::lround(std::ceil(duration / parameters.time_step * (1 - 1e-12))));
+  const double step = duration / n;
+  if (!forces_known) sum_forces(0), forces_known = true;
+  relax_factors(step);
+  for (SeedStore& s : store)
+    for (LoadLanes& l : s.load) l.impulse = LaneVec3{};
+  move({0.5 * step, step, true, parameters.gravity});
+  for (long k = 1; k <= n; ++k) {
+    sum_forces(step);
+    if (k < n)
+      move({step, step, false, parameters.gravity});
+    else
+      move({0.5 * step, 0, true, parameters.gravity});
+  }
+  substeps += n;
+  now += duration;
+  check_state();
+}
+
+void Dem::check_state() const {
+  for (int seed = 0; seed < n_seeds(); ++seed) {
+    const SeedState s = seed_state(seed);
+    const Vec3& x = s.centre;
+    std::ostringstream where;
+    where << "seed " << seed << " ('" << seed_template(seed).name << "') at (" << x.x << ", " << x.y << ", "
+          << x.z << ") m, t = " << now << " s";
+    if (!std::isfinite(x.x + x.y + x.z + s.velocity.x + s.velocity.y + s.velocity.z))
+      throw RunError("The motion of the seeds failed: not a number in " + where.str() +
+                     ". Reduce the time step or look at the forces on this seed.");
+    if (bounded &&
+        (x.x < low.x || x.y < low.y || x.z < low.z || x.x > high.x || x.y > high.y || x.z > high.z))
+      throw RunError("A seed left the domain: " + where.str() +
+                     ". Close the domain with walls, enlarge it, or end the run earlier.");
+  }
+}
+
+}  // namespace seedflow
