@@ -1,0 +1,165 @@
+#include "seedflow/effects/effect.h"
+
+#include <algorithm>
+#include <istream>
+#include <ostream>
+#include <sstream>
+
+#include "seedflow/effects/nearest_name.h"
+
+namespace seedflow {
+namespace {
+
+/// Index of the member of that name, or InputError naming the nearest one.
+template <class List>
+std::size_t index_of(const List& list, const std::string& name, const std::string& effect) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError("The effect '" + effect + "' has no parameter '" + name + "'." +
+                     (names.empty() ? "" : " Did you mean '" + nearest_name(name, names) + "'?"));
+  return found - names.begin();
+}
+
+template <class T>
+void write_binary(std::ostream& out, const T& value) {
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class T>
+T read_binary(std::istream& in) {
+  T value;
+  if (!in.read(reinterpret_cast<char*>(&value), sizeof value))
+    throw RunError(
+        "The checkpoint ends inside the memory of the effects. Remedy: resume from an earlier checkpoint.");
+  return value;
+}
+
+bool inside(double value, const Range& range) {
+  return value <= range.high && (range.low_open ? value > range.low : value >= range.low);
+}
+
+}  // namespace
+
+Effect::Effect(EffectDefinition d) : definition(std::move(d)) {
+  values.strength = record().standard_strength;
+  for (const auto& number : record().numbers) values.numbers.push_back(number.published);
+  for (const auto& choice : record().choices) values.choices.push_back(choice.standard);
+  prepare();
+}
+
+void Effect::set_strength(double strength) {
+  if (!(strength >= 0 && strength <= 1)) {
+    std::ostringstream text;
+    text << "The strength of the effect '" << record().name << "' is " << strength << "; allowed are 0 to 1.";
+    throw InputError(text.str());
+  }
+  values.strength = strength;
+}
+
+void Effect::set_number(const std::string& name, double value) {
+  const auto i = index_of(record().numbers, name, record().name);
+  const auto& number = record().numbers[i];
+  if (!inside(value, number.range)) {
+    std::ostringstream text;
+    text << "The parameter '" << name << "' of the effect '" << record().name << "' is " << value
+         << "; allowed are " << (number.range.low_open ? "above " : "") << number.range.low << " to "
+         << number.range.high << " (published: " << number.published << ").";
+    throw InputError(text.str());
+  }
+  values.numbers[i] = value;
+  prepare();
+}
+
+void Effect::set_choice(const std::string& name, const std::string& value) {
+  const auto i = index_of(record().choices, name, record().name);
+  const auto& options = record().choices[i].options;
+  if (std::find(options.begin(), options.end(), value) == options.end())
+    throw InputError("The parameter '" + name + "' of the effect '" + record().name + "' cannot be '" +
+                     value + "'. Did you mean '" + nearest_name(value, options) + "'?");
+  values.choices[i] = value;
+  prepare();
+}
+
+double Effect::number(const std::string& name) const {
+  return values.numbers[index_of(record().numbers, name, record().name)];
+}
+
+const std::string& Effect::choice(const std::string& name) const {
+  return values.choices[index_of(record().choices, name, record().name)];
+}
+
+void Effect::declare(Parameters& parameters) {
+  const auto& r = record();
+  const auto section = parameters.section(r.name, r.summary + " " + r.equation);
+  parameters.number("Strength", values.strength, "1", Range::between(0, 1),
+                    "0 adds exactly nothing, 1 the published effect. Valid for: " + r.validity);
+  for (std::size_t i = 0; i < r.numbers.size(); ++i)
+    parameters.number(r.numbers[i].name, values.numbers[i], r.numbers[i].unit, r.numbers[i].range,
+                      r.numbers[i].doc);
+  for (std::size_t i = 0; i < r.choices.size(); ++i)
+    parameters.choice(r.choices[i].name, values.choices[i], r.choices[i].options, r.choices[i].doc);
+}
+
+void Effect::prepare() {
+  law = definition.law(values);
+}
+
+void Effect::add(const FlowAtBody& flow, BodyForce& force) {
+  const double s = values.strength;
+  if (s == 0) return;
+  EffectMemory none;
+  BodyForce with = force;
+  law(flow, record().has_memory ? memory[flow.body] : none, with);
+
+  BodyForce change;
+  change.drag_coefficient = s * (with.drag_coefficient - force.drag_coefficient);
+  change.force = s * (with.force - force.force);
+  change.torque = s * (with.torque - force.torque);
+  change.added_mass = s * (with.added_mass - force.added_mass);
+
+  force.drag_coefficient += change.drag_coefficient;
+  force.force += change.force;
+  force.torque += change.torque;
+  force.added_mass += change.added_mass;
+
+  ++done.evaluations;
+  if (record().in_range(flow)) ++done.in_range;
+  done.force += norm(change.drag_coefficient * slip(flow)) + norm(change.force) +
+                norm(change.added_mass * flow.acceleration);
+  done.torque += norm(change.torque);
+}
+
+EffectMemory Effect::pack(std::int64_t body) const {
+  const auto found = memory.find(body);
+  return found == memory.end() ? EffectMemory() : found->second;
+}
+
+void Effect::unpack(std::int64_t body, EffectMemory numbers) {
+  if (numbers.empty())
+    memory.erase(body);
+  else
+    memory[body] = std::move(numbers);
+}
+
+void Effect::save(std::ostream& out) const {
+  write_binary(out, done);
+  write_binary(out, static_cast<std::uint64_t>(memory.size()));
+  for (const auto& [body, numbers] : memory) {
+    write_binary(out, body);
+    write_binary(out, static_cast<std::uint64_t>(numbers.size()));
+    for (const double x : numbers) write_binary(out, x);
+  }
+}
+
+void Effect::load(std::istream& in) {
+  done = read_binary<EffectActivity>(in);
+  memory.clear();
+  for (auto left = read_binary<std::uint64_t>(in); left > 0; --left) {
+    auto& numbers = memory[read_binary<std::int64_t>(in)];
+    for (auto n = read_binary<std::uint64_t>(in); n > 0; --n) numbers.push_back(read_binary<double>(in));
+  }
+}
+
+}  // namespace seedflow

@@ -1,0 +1,47 @@
+#include <cmath>
+
+#include "seedflow/effects/definitions.h"
+#include "seedflow/effects/drag_laws.h"
+
+namespace seedflow {
+
+EffectDefinition saffman_lift() {
+  EffectRecord r;
+  r.name = "Saffman lift";
+  r.slot = "force on a body";
+  r.summary = "Lift of a body slipping through sheared fluid.";
+  r.equation =
+      "F = C 1.615 d^2 sqrt(rho mu/|omega|) (u - v) x omega, omega = curl u. Form Saffman: C = 1. Form Mei, "
+      "with "
+      "B = d |omega|/(2 |u - v|): C = (1 - 0.3314 sqrt(B)) exp(-Re/10) + 0.3314 sqrt(B) for Re <= 40, "
+      "0.0524 sqrt(B Re) above";
+  r.choices = {
+      {"Form", "Mei", {"Mei", "Saffman"}, "Finite-Re correction of Mei, or the small-Re result itself."}};
+  r.references = {
+      "Saffman (1965), J. Fluid Mech. 22, 385-400, doi:10.1017/S0022112065000824; corrigendum 31 (1968) 624",
+      "Mei (1992), Int. J. Multiphase Flow 18, 145-147, doi:10.1016/0301-9322(92)90012-6"};
+  r.validity = "Re < 100, 0.005 < B < 0.4 (form Saffman: Re << sqrt(Re_omega) << 1), far from walls";
+  r.in_range = [](const FlowAtBody& flow) {
+    const double b = 0.5 * flow.diameter * norm(flow.flow_vorticity) / std::max(norm(slip(flow)), 1e-300);
+    return slip_reynolds(flow) < 100 && b < 0.4;
+  };
+  r.signature = "sideways drift in shear; a body that lags the flow moves towards the faster fluid";
+  return {r, [](const EffectSettings& settings) {
+            const bool mei = settings.choices[0] == "Mei";
+            return [mei](const FlowAtBody& flow, EffectMemory&, BodyForce& force) {
+              const double vorticity = norm(flow.flow_vorticity), speed = norm(slip(flow));
+              if (vorticity == 0 || speed == 0) return;
+              double correction = 1;
+              if (mei) {
+                const double re = slip_reynolds(flow), b = 0.5 * flow.diameter * vorticity / speed;
+                const double root = 0.3314 * std::sqrt(b);
+                correction = re <= 40 ? (1 - root) * std::exp(-re / 10) + root : 0.0524 * std::sqrt(b * re);
+              }
+              const double factor = 1.615 * flow.diameter * flow.diameter *
+                                    std::sqrt(flow.density * flow.viscosity / vorticity) * correction;
+              force.force += factor * cross(slip(flow), flow.flow_vorticity);
+            };
+          }};
+}
+
+}  // namespace seedflow
