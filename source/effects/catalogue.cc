@@ -5,14 +5,14 @@
 
 #include "seedflow/effects/definitions.h"
 #include "seedflow/effects/drag_laws.h"
-#include "seedflow/effects/nearest_name.h"
+#include "seedflow/base/nearest_name.h"
 
 namespace seedflow {
 namespace {
 
 [[noreturn]] void unknown(const std::string& name) {
-  throw InputError("There is no effect '" + name + "'. Did you mean '" + nearest_name(name, effect_names()) +
-                   "'? 'seedflow effects' lists all.");
+  throw InputError("There is no effect '" + name + "'. " + suggestion(name, effect_names(), "effect") +
+                   " 'seedflow effects' lists all.");
 }
 
 template <class Effects>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "seedflow/effects/nearest_name.h"
+#include "seedflow/base/nearest_name.h"
 
 namespace seedflow {
 namespace {
@@ -136,10 +136,7 @@ std::vector<std::string> drag_law_names() {
 const DragLaw& drag_law(const std::string& name) {
   for (const auto& law : drag_laws())
     if (law.name == name) return law;
-  std::string all;
-  for (const auto& known : drag_law_names()) all += (all.empty() ? "" : ", ") + known;
-  throw InputError("There is no drag law '" + name + "'. Did you mean '" +
-                   nearest_name(name, drag_law_names()) + "'? Allowed: " + all + ".");
+  throw InputError("There is no drag law '" + name + "'. " + suggestion(name, drag_law_names(), "drag law"));
 }
 
 double slip_reynolds(const FlowAtBody& flow) {

@@ -1,11 +1,10 @@
 #include "seedflow/effects/effect.h"
 
 #include <algorithm>
-#include <istream>
-#include <ostream>
 #include <sstream>
 
-#include "seedflow/effects/nearest_name.h"
+#include "seedflow/base/binary.h"
+#include "seedflow/base/nearest_name.h"
 
 namespace seedflow {
 namespace {
@@ -18,22 +17,8 @@ std::size_t index_of(const List& list, const std::string& name, const std::strin
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     throw InputError("The effect '" + effect + "' has no parameter '" + name + "'." +
-                     (names.empty() ? "" : " Did you mean '" + nearest_name(name, names) + "'?"));
+                     (names.empty() ? "" : " " + suggestion(name, names, "parameter")));
   return found - names.begin();
-}
-
-template <class T>
-void write_binary(std::ostream& out, const T& value) {
-  out.write(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-template <class T>
-T read_binary(std::istream& in) {
-  T value;
-  if (!in.read(reinterpret_cast<char*>(&value), sizeof value))
-    throw RunError(
-        "The checkpoint ends inside the memory of the effects. Remedy: resume from an earlier checkpoint.");
-  return value;
 }
 
 bool inside(double value, const Range& range) {
@@ -77,7 +62,7 @@ void Effect::set_choice(const std::string& name, const std::string& value) {
   const auto& options = record().choices[i].options;
   if (std::find(options.begin(), options.end(), value) == options.end())
     throw InputError("The parameter '" + name + "' of the effect '" + record().name + "' cannot be '" +
-                     value + "'. Did you mean '" + nearest_name(value, options) + "'?");
+                     value + "'. " + suggestion(value, options, "value"));
   values.choices[i] = value;
   prepare();
 }
@@ -148,17 +133,18 @@ void Effect::save(std::ostream& out) const {
   write_binary(out, static_cast<std::uint64_t>(memory.size()));
   for (const auto& [body, numbers] : memory) {
     write_binary(out, body);
-    write_binary(out, static_cast<std::uint64_t>(numbers.size()));
-    for (const double x : numbers) write_binary(out, x);
+    write_binary(out, numbers);
   }
 }
 
 void Effect::load(std::istream& in) {
-  done = read_binary<EffectActivity>(in);
+  read_binary(in, done);
   memory.clear();
-  for (auto left = read_binary<std::uint64_t>(in); left > 0; --left) {
-    auto& numbers = memory[read_binary<std::int64_t>(in)];
-    for (auto n = read_binary<std::uint64_t>(in); n > 0; --n) numbers.push_back(read_binary<double>(in));
+  std::uint64_t bodies = 0;
+  for (read_binary(in, bodies); bodies > 0; --bodies) {
+    std::int64_t body = 0;
+    read_binary(in, body);
+    read_binary(in, memory[body]);
   }
 }
 

@@ -109,7 +109,7 @@ TEST(DragLaws, UnknownNameSuggestsTheNearest) {
     drag_law("di felize");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("Did you mean 'Di Felice'"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("Di Felice"), std::string::npos) << error.what();
   }
 }
 
