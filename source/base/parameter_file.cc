@@ -44,7 +44,8 @@ class Scanner {
       return;
     }
     open_files.push_back(file);
-    const std::size_t depth_at_begin = sections.size();
+    const std::size_t outer_depth = depth_of_file;
+    depth_of_file = sections.size();
     std::string text, logical;
     int number = 0, begin_line = 0;
     bool continued = false;
@@ -65,17 +66,19 @@ class Scanner {
     if (continued)
       problems.push_back(file + ":" + std::to_string(number) +
                          ": the file ends inside a continued line ('\\').");
-    while (sections.size() > depth_at_begin) {
+    while (sections.size() > depth_of_file) {
       problems.push_back(opened.back() + ": section \"" + sections.back() +
                          "\" is not closed: a line `end` is missing.");
       sections.pop_back();
       opened.pop_back();
     }
+    depth_of_file = outer_depth;
     open_files.pop_back();
   }
 
  private:
   std::vector<std::string> sections, opened, open_files;
+  std::size_t depth_of_file = 0;  ///< sections open where the present file was included
 
   void line(const std::string& text, const std::string& where) {
     std::string rest;
@@ -88,7 +91,7 @@ class Scanner {
     } else if (statement(text, "end", rest)) {
       if (!rest.empty())
         problems.push_back(where + ": \"" + rest + "\" after `end`; `end` stands alone on its line.");
-      if (sections.empty())
+      if (sections.size() == depth_of_file)
         problems.push_back(where + ": `end` without a `subsection` that it could close.");
       else {
         sections.pop_back();
@@ -160,14 +163,14 @@ std::string path_of(const ParameterLine& line) {
   return path + line.name;
 }
 
-std::string peek_parameter(const std::string& file, const std::vector<std::string>& overrides,
-                           const std::string& path) {
-  std::string value;
+ParameterLine find_parameter_line(const std::string& file, const std::vector<std::string>& overrides,
+                                  const std::string& path) {
+  ParameterLine found;
   for (const ParameterLine& line : scan_parameter_file(file))
-    if (!line.section_only && path_of(line) == path) value = line.value;
+    if (!line.section_only && path_of(line) == path) found = line;
   for (const std::string& text : overrides)
-    if (const ParameterLine line = scan_override(text); path_of(line) == path) value = line.value;
-  return value;
+    if (const ParameterLine line = scan_override(text); path_of(line) == path) found = line;
+  return found;
 }
 
 }  // namespace seedflow

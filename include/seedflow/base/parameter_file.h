@@ -24,10 +24,10 @@ std::vector<ParameterLine> scan_parameter_file(const std::string& file);
 /// Reads "Section/Subsection/Entry=value".
 ParameterLine scan_override(const std::string& text);
 
-/// The value which a top-level or nested entry ("Section/Entry") gets from the file and the overrides, or ""
-/// if it is not set: for the entries that decide what else is declared.
-std::string peek_parameter(const std::string& file, const std::vector<std::string>& overrides,
-                           const std::string& path);
+/// The line that sets `path` ("Section/Entry") in the file or, with precedence, the overrides; without a name
+/// if none does. For the entries that decide what else is declared.
+ParameterLine find_parameter_line(const std::string& file, const std::vector<std::string>& overrides,
+                                  const std::string& path);
 
 /// "Section/Sub/Entry" of a line.
 std::string path_of(const ParameterLine& line);
