@@ -6,6 +6,7 @@
 
 #include "seedflow/base/error.h"
 #include "seedflow/seeds/motion.h"
+#include "seedflow/seeds/rigid_load.h"
 
 namespace seedflow {
 
@@ -57,7 +58,8 @@ void Dem::set_loads(const SphereLoads& loads) {
 void Dem::relax_factors(double step) {
   if (load_step == step) return;
   const auto relaxed = [](double z) { return z > 0 ? -std::expm1(-z) / z : 1.0; };
-  for (SeedStore& s : store)
+  for (SeedStore& s : store) {
+    if (s.rigid) continue;
     for (std::size_t k = 0; k < s.load.size(); ++k) {
       LoadLanes& l = s.load[k];
       const double mass = s.model.sphere_mass[k % s.n_spheres()];
@@ -67,10 +69,57 @@ void Dem::relax_factors(double step) {
         l.relaxed_half[lane] = relaxed(0.5 * z);
       }
     }
+  }
   load_step = step;
 }
 
+void Dem::begin_impulses(double step) {
+  for (SeedStore& s : store) {
+    for (LoadLanes& l : s.load) l.impulse = LaneVec3{};
+    if (!s.rigid || s.load.empty()) continue;
+    s.rigid_load.resize(s.seed.size());
+    for (std::size_t slot = 0; slot < s.seed.size(); ++slot)
+      s.rigid_load[slot] = reduce_loads(s.model, s.loads(slot / lane_width), slot % lane_width, step);
+  }
+}
+
+void Dem::end_impulses(double duration) {
+  for (SeedStore& s : store)
+    for (std::size_t slot = 0; slot < s.rigid_load.size(); ++slot)
+      spread_impulses(s.rigid_load[slot], s.model, s.loads(slot / lane_width), slot % lane_width, duration);
+}
+
+void Dem::refresh_addresses() {
+  if (static_cast<int>(address.size()) == n_spheres()) return;
+  address.clear();
+  for (int seed = 0; seed < n_seeds(); ++seed) {
+    SeedStore& s = store[slots[seed].store];
+    const int b = slots[seed].slot / lane_width;
+    const Vec3& inertia = s.model.inertia;
+    for (int i = 0; i < s.n_spheres(); ++i) {
+      SphereAddress a;
+      a.lanes = s.block(b) + i;
+      a.body = s.rigid ? &s.body[b] : nullptr;
+      a.lane = slots[seed].slot % lane_width;
+      a.seed = seed;
+      a.material = s.material;
+      a.radius = s.model.radius[i];
+      a.mass = s.rigid ? s.model.mass : s.model.sphere_mass[i];
+      a.inertia = s.rigid ? std::min({inertia.x, inertia.y, inertia.z}) : s.model.sphere_inertia[i];
+      address.push_back(a);
+    }
+  }
+}
+
 void Dem::sum_forces(double step) {
+  double fastest = largest_speed;
+  for (Wall& w : wall) {
+    w.point += step * w.velocity;
+    fastest = std::max(fastest, norm(w.velocity));
+  }
+  if (!contacts.is_listed() || contacts.moved(fastest * step))
+    contacts.search(address, first, wall, parameters.contacts);
+  contacts.add_forces(address, wall, step, wall_force);
   for (std::size_t t = 0; t < store.size(); ++t)
     if (!store[t].rigid)
       for (int b = 0; b < store[t].n_blocks(); ++b) bonds[t].add_forces(store[t].block(b), b, step);
@@ -79,18 +128,27 @@ void Dem::sum_forces(double step) {
 void Dem::move(const MotionStep& motion) {
   double fastest = 0;
   for (SeedStore& s : store)
-    for (int b = 0; b < s.n_blocks(); ++b) fastest = std::max(fastest, move_bonded(s, b, motion));
+    for (int b = 0; b < s.n_blocks(); ++b)
+      fastest = std::max(fastest, s.rigid ? move_rigid(s, b, motion) : move_bonded(s, b, motion));
   largest_speed = std::sqrt(fastest);
+  for (std::size_t w = 0; w < wall.size(); ++w) wall_impulse[w] += motion.kick * wall_force[w];
 }
 
 void Dem::advance(double duration) {
-  if (!(duration > 0) || n_seeds() == 0) return;
+  if (!(duration > 0)) return;
   const long n = std::max(1L, std::lround(std::ceil(duration / parameters.time_step * (1 - 1e-12))));
   const double step = duration / n;
-  if (!forces_known) sum_forces(0), forces_known = true;
+  if (!forces_known) {
+    refresh_addresses();
+    for (SeedStore& s : store)
+      for (SphereLanes& l : s.sphere) l.force = l.torque = LaneVec3{};
+    contacts.forget();
+    sum_forces(0);
+    forces_known = true;
+  }
   relax_factors(step);
-  for (SeedStore& s : store)
-    for (LoadLanes& l : s.load) l.impulse = LaneVec3{};
+  begin_impulses(step);
+  // Velocity Verlet; the second half kick of one substep and the first of the next are one.
   move({0.5 * step, step, true, parameters.gravity});
   for (long k = 1; k <= n; ++k) {
     sum_forces(step);
@@ -99,6 +157,7 @@ void Dem::advance(double duration) {
     else
       move({0.5 * step, 0, true, parameters.gravity});
   }
+  end_impulses(duration);
   substeps += n;
   now += duration;
   check_state();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "seedflow/base/error.h"
 #include "seedflow/base/parameters.h"
 #include "seedflow/seeds/dem.h"
 
@@ -14,11 +15,53 @@ void DemParameters::declare(Parameters& p) {
            "Largest substep; checked against its limits before the run.");
   p.vector("Gravity", gravity, "m/s2", Range::any(), "Acceleration of gravity.");
   bonds.declare(p);
+  contacts.declare(p);
+  limits.declare(p);
 }
 
 int Dem::add_material(const Material& m) {
   material.push_back(m);
-  return static_cast<int>(material.size()) - 1;
+  const int number = static_cast<int>(material.size()) - 1;
+  for (int other = 0; other <= number; ++other) set_contact(number, other, {});
+  return number;
+}
+
+void Dem::set_contact(int a, int b, const ContactProperties& properties) {
+  if (!(properties.restitution > 0 && properties.restitution <= 1))
+    throw InputError("Contact between '" + material[a].name + "' and '" + material[b].name +
+                     "': restitution is " + std::to_string(properties.restitution) +
+                     ", allowed is above 0 up to 1.");
+  contacts.set_law(a, b, ContactLaw(material[a], material[b], properties));
+}
+
+int Dem::add_wall(const Wall& w) {
+  const double length = norm(w.normal);
+  if (!(length > 0))
+    throw InputError("Wall '" + w.name + "': the normal is zero. Give the direction into the domain.");
+  if (w.material < 0 || w.material >= static_cast<int>(material.size()))
+    throw InputError("Wall '" + w.name + "': there is no material number " + std::to_string(w.material) +
+                     ".");
+  wall.push_back(w);
+  wall.back().normal /= length;
+  wall_impulse.emplace_back();
+  wall_force.emplace_back();
+  forces_known = false;
+  return static_cast<int>(wall.size()) - 1;
+}
+
+void Dem::add_box(const Vec3& a, const Vec3& b, int material_index) {
+  const char* const axes = "xyz";
+  for (int c = 0; c < 3; ++c) {
+    Vec3 normal;
+    normal[c] = 1;
+    add_wall({std::string(1, axes[c]) + "-", a, normal, {}, material_index});
+    add_wall({std::string(1, axes[c]) + "+", b, -normal, {}, material_index});
+  }
+  set_domain(a, b);
+}
+
+void Dem::set_wall_velocity(int w, const Vec3& velocity) {
+  wall.at(w).velocity = velocity;
 }
 
 int Dem::add_template(const SeedTemplate& model, int material_index, bool rigid) {
@@ -56,21 +99,85 @@ int Dem::add_seed(int seed_template, const Vec3& centre, const Quaternion& orien
   sphere_mass.insert(sphere_mass.end(), s.model.sphere_mass.begin(), s.model.sphere_mass.end());
   forces_known = false;
   load_step = 0;
+  address.clear();
   return number;
 }
 
-void Dem::check() const {
+std::vector<TimeStepLimit> Dem::time_step_limits() const {
+  std::vector<TimeStepLimit> limits;
+  const TimeStepParameters& p = parameters.limits;
+  for (std::size_t t = 0; t < store.size(); ++t) {
+    const SeedStore& s = store[t];
+    if (s.seed.empty()) continue;
+    TimeStepLimit rayleigh{"", 1e300, p.rayleigh_fraction, "Rayleigh fraction"};
+    TimeStepLimit hertz{"", 1e300, p.hertz_fraction, "Hertz fraction"};
+    for (int i = 0; i < s.n_spheres(); ++i) {
+      const double r = s.model.radius[i], mass = s.rigid ? s.model.mass : s.model.sphere_mass[i];
+      const double density = s.model.sphere_mass[i] / (4.0 / 3 * M_PI * r * r * r);
+      std::ostringstream which;
+      which << "sub-sphere of radius " << r << " m of template '" << s.model.name << "'";
+      const double wave = rayleigh_time(r, density, material[s.material]);
+      if (wave < rayleigh.full) rayleigh.full = wave, rayleigh.cause = "Rayleigh wave on a " + which.str();
+      const double between_seeds =
+          hertz_time(r / 2, mass / 2, contacts.law(s.material, s.material).young, p.impact_speed);
+      if (between_seeds < hertz.full)
+        hertz.full = between_seeds, hertz.cause = "Hertz contact of a " + which.str();
+      for (const Wall& w : wall) {
+        const double at_wall =
+            hertz_time(r, mass, contacts.law(s.material, w.material).young, p.impact_speed);
+        if (at_wall < hertz.full)
+          hertz.full = at_wall,
+          hertz.cause = "Hertz contact of a " + which.str() + " with wall '" + w.name + "'";
+      }
+    }
+    limits.push_back(rayleigh);
+    limits.push_back(hertz);
+    if (!s.rigid && bonds[t].n_bonds() > 0)
+      limits.push_back({"bond vibration of template '" + s.model.name + "'",
+                        2 / bonds[t].largest_frequency(s.model), p.bond_fraction, "Bond fraction"});
+  }
+  return limits;
+}
+
+void Dem::check() {
+  const auto text_of = [](const Vec3& x) {
+    std::ostringstream text;
+    text << "(" << x.x << ", " << x.y << ", " << x.z << ") m";
+    return text.str();
+  };
   for (int seed = 0; seed < n_seeds(); ++seed) {
     const Vec3 x = seed_state(seed).centre;
     if (bounded &&
-        (x.x < low.x || x.y < low.y || x.z < low.z || x.x > high.x || x.y > high.y || x.z > high.z)) {
+        (x.x < low.x || x.y < low.y || x.z < low.z || x.x > high.x || x.y > high.y || x.z > high.z))
+      throw InputError("Seed " + std::to_string(seed) + " starts at " + text_of(x) +
+                       ", outside the domain from " + text_of(low) + " to " + text_of(high) +
+                       ". Move the seed or enlarge the domain.");
+  }
+  refresh_addresses();
+  Contacts trial = contacts;
+  trial.search(address, first, wall, parameters.contacts);
+  Contacts::Pair pair{};
+  bool at_wall = false;
+  const double overlap = trial.largest_overlap(address, wall, pair, at_wall);
+  if (overlap > 1e-6 * (n_spheres() > 0 ? sphere_radius[pair.first] : 1)) {
+    const int seed = seed_of_sphere(pair.first);
+    std::ostringstream text;
+    text << "Seed " << seed << " at " << text_of(seed_state(seed).centre) << " starts " << overlap
+         << " m inside "
+         << (at_wall ? "wall '" + wall[pair.second].name + "'"
+                     : "seed " + std::to_string(seed_of_sphere(pair.second)))
+         << ". Move the seed.";
+    throw InputError(text.str());
+  }
+  for (const TimeStepLimit& limit : time_step_limits())
+    if (parameters.time_step > limit.step()) {
       std::ostringstream text;
-      text << "Seed " << seed << " starts at (" << x.x << ", " << x.y << ", " << x.z
-           << ") m, outside the domain from (" << low.x << ", " << low.y << ", " << low.z << ") to ("
-           << high.x << ", " << high.y << ", " << high.z << ") m. Move the seed or enlarge the domain.";
+      text << "The DEM time step of " << parameters.time_step << " s is above its limit of " << limit.step()
+           << " s (" << limit.fraction << " of " << limit.full << " s: " << limit.cause
+           << "). Set 'Time step' to at most " << limit.step() << " s, use softer material, or raise '"
+           << limit.setting << "' knowingly.";
       throw InputError(text.str());
     }
-  }
 }
 
 }  // namespace seedflow

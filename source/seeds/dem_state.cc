@@ -169,10 +169,57 @@ int Dem::n_broken_bonds() const {
 
 std::size_t Dem::bytes() const {
   std::size_t sum = sphere_radius.capacity() * sizeof(double) + sphere_mass.capacity() * sizeof(double) +
-                    slots.capacity() * sizeof(Slot) + first.capacity() * sizeof(int);
+                    slots.capacity() * sizeof(Slot) + first.capacity() * sizeof(int) +
+                    address.capacity() * sizeof(SphereAddress) + contacts.bytes();
   for (const SeedStore& s : store) sum += s.bytes();
   for (const Bonds& b : bonds) sum += b.bytes();
   return sum;
+}
+
+void Dem::save(std::ostream& out) const {
+  write_binary(out, n_spheres());
+  write_binary(out, now);
+  write_binary(out, substeps);
+  write_binary(out, largest_speed);
+  write_binary(out, forces_known);
+  write_binary(out, wall_impulse);
+  write_binary(out, wall_force);
+  for (const Wall& w : wall) write_binary(out, w.point), write_binary(out, w.velocity);
+  contacts.save(out);
+  for (std::size_t t = 0; t < store.size(); ++t) {
+    write_binary(out, store[t].sphere);
+    write_binary(out, store[t].load);
+    write_binary(out, store[t].body);
+    bonds[t].save(out);
+  }
+}
+
+void Dem::load(std::istream& in) {
+  int spheres = 0;
+  read_binary(in, spheres);
+  if (spheres != n_spheres())
+    throw RunError("The saved state holds " + std::to_string(spheres) + " sub-spheres, this set-up has " +
+                   std::to_string(n_spheres()) + ". Resume with the input the state was made with.");
+  read_binary(in, now);
+  read_binary(in, substeps);
+  read_binary(in, largest_speed);
+  read_binary(in, forces_known);
+  read_binary(in, wall_impulse);
+  read_binary(in, wall_force);
+  if (wall_impulse.size() != wall.size())
+    throw RunError("The saved state has " + std::to_string(wall_impulse.size()) + " walls, this set-up has " +
+                   std::to_string(wall.size()) + ". Resume with the input the state was made with.");
+  for (Wall& w : wall) read_binary(in, w.point), read_binary(in, w.velocity);
+  contacts.load(in);
+  for (std::size_t t = 0; t < store.size(); ++t) {
+    read_binary(in, store[t].sphere);
+    read_binary(in, store[t].load);
+    read_binary(in, store[t].body);
+    bonds[t].load(in);
+  }
+  load_step = 0;
+  address.clear();
+  refresh_addresses();
 }
 
 }  // namespace seedflow

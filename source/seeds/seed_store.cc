@@ -38,8 +38,8 @@ int SeedStore::add(int seed_number, const Vec3& centre, const Quaternion& orient
 
 std::size_t SeedStore::bytes() const {
   return sphere.capacity() * sizeof(SphereLanes) + load.capacity() * sizeof(LoadLanes) +
-         body.capacity() * sizeof(BodyLanes) + occupied.capacity() * sizeof(Lanes) +
-         seed.capacity() * sizeof(int);
+         body.capacity() * sizeof(BodyLanes) + rigid_load.capacity() * sizeof(RigidLoad) +
+         occupied.capacity() * sizeof(Lanes) + seed.capacity() * sizeof(int);
 }
 
 }  // namespace seedflow

@@ -6,9 +6,11 @@
 
 #include "seedflow/base/quaternion.h"
 #include "seedflow/seeds/bonds.h"
+#include "seedflow/seeds/contacts.h"
 #include "seedflow/seeds/material.h"
 #include "seedflow/seeds/motion.h"
 #include "seedflow/seeds/seed_store.h"
+#include "seedflow/seeds/time_step.h"
 #include "seedflow/seeds/walls.h"
 
 namespace seedflow {
@@ -19,6 +21,8 @@ struct DemParameters {
   double time_step = 1e-6;    ///< largest substep [s]
   Vec3 gravity{0, 0, -9.81};  ///< [m/s2]
   BondParameters bonds;
+  ContactParameters contacts;
+  TimeStepParameters limits;
 
   void declare(Parameters& parameters);
 };
@@ -70,14 +74,22 @@ class Dem {
 
   // Setting up.
   int add_material(const Material& material);
+  /// Without this a pair of materials has the properties of ContactProperties' defaults.
+  void set_contact(int material_a, int material_b, const ContactProperties& properties);
   int add_template(const SeedTemplate& model, int material, bool rigid);
+  int add_wall(const Wall& wall);
+  /// Six walls named x-, x+, ..., z+ around the box, and the box as domain.
+  void add_box(const Vec3& low, const Vec3& high, int material);
+  void set_wall_velocity(int wall, const Vec3& velocity);
   /// Seeds' centres must stay inside.
   void set_domain(const Vec3& low, const Vec3& high);
   int add_seed(int seed_template, const Vec3& centre, const Quaternion& orientation = {},
                const Vec3& velocity = {}, const Vec3& spin = {});
   /// Throws InputError if a seed overlaps a wall or another seed, leaves the domain, or the time step is too
   /// large.
-  void check() const;
+  void check();
+  /// All limits of the time step for the seeds present.
+  std::vector<TimeStepLimit> time_step_limits() const;
 
   // Running.
   /// Replaces the outside loads; they stay until replaced. Sizes are n_spheres() or 0.
@@ -112,7 +124,13 @@ class Dem {
   int n_broken_bonds() const;
   int n_broken_bonds(int seed) const;
   const std::vector<Wall>& walls() const { return wall; }
+  int n_contacts() const { return contacts.n_touching(); }
   std::size_t bytes() const;  ///< of all state and lists
+
+  /// The complete state in binary; load() into a Dem set up in the same way, the same seeds added in the same
+  /// order, continues to the last bit. RunError if the state is cut off or belongs to other seeds.
+  void save(std::ostream& out) const;
+  void load(std::istream& in);
 
  private:
   struct Slot {
@@ -122,8 +140,11 @@ class Dem {
   const SphereLanes& lanes_of(int seed, int sphere, int& lane) const;
   template <class Member>
   void gather(std::vector<Vec3>& out, Member member) const;
+  void refresh_addresses();
   void sum_forces(double step);
   void move(const MotionStep& motion);
+  void begin_impulses(double step);
+  void end_impulses(double duration);
   void check_state() const;
   void relax_factors(double step);
 
@@ -136,6 +157,9 @@ class Dem {
   std::vector<double> sphere_radius, sphere_mass;
   std::vector<Wall> wall;
   std::vector<Vec3> wall_impulse;
+  std::vector<Vec3> wall_force;        ///< on the seeds by each wall at the present positions [N]
+  std::vector<SphereAddress> address;  ///< [sub-sphere]; empty after a change of the stores
+  Contacts contacts;
   Vec3 low, high;
   bool bounded = false, loaded = false, forces_known = false;
   double now = 0;

@@ -37,6 +37,25 @@ struct BodyLanes {
   LaneVec3 angular_momentum;  ///< lab frame [kg m2/s]
 };
 
+/// Drag and added mass on one rigid seed, reduced to its six degrees of freedom V = (v, omega), both in the
+/// template's frame, where they do not change while the seed turns. During a kick of length h
+///   M dV/dt = G - K V,   M = own inertia + sum m_a D^T D,   K = sum k D^T D,   D V = v + omega x r,
+/// is solved exactly: with the generalised eigenvectors X of (K, M) and eigenvalues lambda,
+///   mean V = V + h X phi_2(h lambda) X^T (G - K V),   phi_2(z) = (z - 1 + exp(-z))/z^2,
+///   change of V = h X X^T (G - K mean V),
+/// so that the impulse on each sub-sphere, h k (u - mean v) - m_a change of v, adds up to what the seed
+/// receives.
+struct RigidLoad {
+  double drag[36];                      ///< K, row by row
+  double mobility[36];                  ///< X X^T = M^-1
+  double mean_half[36], mean_full[36];  ///< X phi_2 X^T for half a substep and a whole one
+  Vec3 force, torque;                   ///< sum of f + k u and of the given torques, lab frame
+  Vec3 moment[3];  ///< moment[c] = sum r_c (f + k u): the torque is sum of (R e_c) x moment[c]
+  // Summed since advance() began; a sub-sphere at r (template frame) has path = path + path_arm r and so on.
+  Vec3 path, path_arm[3];      ///< integral of v dt [m]
+  Vec3 change, change_arm[3];  ///< sum of changes of v [m/s]
+};
+
 /// All seeds of one template. Lane = seed: lane_width seeds make a block, and the sub-spheres of a block
 /// stand one after the other, [block][sub-sphere][component][lane], so that one bond of the template is the
 /// same pair of addresses for all seeds of the block. Empty lanes of the last block rest in the template's
@@ -50,6 +69,8 @@ struct SeedStore {
   std::vector<SphereLanes> sphere;  ///< [block * n_spheres + sub-sphere]
   std::vector<LoadLanes> load;      ///< as sphere; empty while nothing acts from outside
   std::vector<BodyLanes> body;      ///< [block], rigid seeds only
+
+  std::vector<RigidLoad> rigid_load;  ///< [slot], rigid seeds under outside loads only
 
   int n_blocks() const { return static_cast<int>(occupied.size()); }
   int n_spheres() const { return model.n_spheres(); }
