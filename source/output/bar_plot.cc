@@ -8,7 +8,7 @@ namespace seedflow {
 
 namespace {
 
-constexpr double label_size = 12, line_height = 16;
+constexpr double label_size = 12, line_height = 16, value_size = 11;
 
 void validate(const BarPlot& plot) {
   for (const BarSeries& s : plot.series) {
@@ -35,6 +35,9 @@ std::string BarPlot::svg() const {
       if (!y.logarithmic || s.values[g] > error) extent.add(s.values[g] - error);
     }
   for (const ReferenceLine& r : horizontal) extent.add(r.value);
+  // Room for the values written above the bars.
+  if (show_values && !extent.empty() && !y.high)
+    extent.high = y.logarithmic ? extent.high * 1.5 : extent.high + 0.12 * (extent.high - extent.low);
   // A logarithmic axis has no zero to begin the bars at; the smallest must still be seen.
   if (y.logarithmic && !extent.empty()) extent.low /= 2;
 
@@ -67,37 +70,58 @@ std::string BarPlot::svg() const {
       std::min(60.0, 0.8 * slot / static_cast<double>(std::max<std::size_t>(1, series.size())));
   const double base = frame.y(
       std::clamp(y.logarithmic ? content.y_ticks.low : 0.0, content.y_ticks.low, content.y_ticks.high));
+  const auto y_of = [&](double v) {
+    return frame.y(std::clamp(v, content.y_ticks.low, content.y_ticks.high));
+  };
+  struct Label {
+    double middle, bottom;
+    std::string words;
+  };
+  std::vector<Label> labels;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const double middle = frame.left + slot * (static_cast<double>(g) + 0.5);
     const auto name = wrapped(groups[g], group_room, label_size);
+    Svg::Font group_font;
+    group_font.size = label_size;
+    group_font.anchor = Svg::Anchor::middle;
     for (std::size_t k = 0; k < name.size(); ++k)
       svg.text(middle, frame.top + frame.height + 18 + line_height * static_cast<double>(k), name[k],
-               {label_size, "#1f2328", Svg::Anchor::middle, false, 0});
+               group_font);
     for (std::size_t i = 0; i < series.size(); ++i) {
-      const double at = middle + bar * (static_cast<double>(i) - 0.5 * static_cast<double>(series.size()));
+      const double bar_left =
+          middle + bar * (static_cast<double>(i) - 0.5 * static_cast<double>(series.size()));
+      const double bar_middle = bar_left + bar / 2;
       const double value = series[i].values[g];
-      const bool missing = std::isnan(value);
-      const double end =
-          missing ? base : frame.y(std::clamp(value, content.y_ticks.low, content.y_ticks.high));
-      if (!missing)
-        svg.rectangle(at + 1, std::min(base, end), bar - 2, std::abs(base - end),
-                      SeriesStyle(static_cast<int>(i)).colour);
-      double label_above = std::min(base, end);
-      if (!missing && !series[i].error.empty() && std::isfinite(series[i].error[g])) {
-        const auto y_of = [&](double v) {
-          return frame.y(std::clamp(v, content.y_ticks.low, content.y_ticks.high));
-        };
+      if (std::isnan(value)) {
+        labels.push_back({bar_middle, base - 5, "n/a"});
+        continue;
+      }
+      const double end = y_of(value);
+      svg.rectangle(bar_left + 1, std::min(base, end), bar - 2, std::abs(base - end),
+                    SeriesStyle(static_cast<int>(i)).colour);
+      double reached = std::min(base, end);
+      if (!series[i].error.empty() && std::isfinite(series[i].error[g])) {
         const double high = y_of(value + series[i].error[g]), low = y_of(value - series[i].error[g]);
         const Svg::Stroke stroke{"#1f2328", 1.3, ""};
-        svg.line(at + bar / 2, low, at + bar / 2, high, stroke);
-        svg.line(at + bar / 2 - 4, low, at + bar / 2 + 4, low, stroke);
-        svg.line(at + bar / 2 - 4, high, at + bar / 2 + 4, high, stroke);
-        label_above = std::min(label_above, high);
+        svg.line(bar_middle, low, bar_middle, high, stroke);
+        svg.line(bar_middle - 4, low, bar_middle + 4, low, stroke);
+        svg.line(bar_middle - 4, high, bar_middle + 4, high, stroke);
+        reached = std::min(reached, high);
       }
-      const std::string label = printed_number(value, 3);
-      if (missing || (show_values && text_width(label, 11) < bar + 6))
-        svg.text(at + bar / 2, label_above - 5, label, {11, "#1f2328", Svg::Anchor::middle, false, 0});
+      if (show_values) labels.push_back({bar_middle, reached - 5, printed_number(value, 3)});
     }
+  }
+  frame.draw_references();
+  // The values stand upright on the bars if one of them is wider than its bar.
+  Svg::Font value_font;
+  value_font.size = value_size;
+  value_font.halo = true;
+  bool across = true;
+  for (const Label& label : labels) across = across && text_width(label.words, value_size) <= bar;
+  for (const Label& label : labels) {
+    value_font.anchor = across ? Svg::Anchor::middle : Svg::Anchor::start;
+    value_font.rotation = across ? 0 : -90;
+    svg.text(label.middle + (across ? 0 : 0.35 * value_size), label.bottom, label.words, value_font);
   }
   if (base < frame.top + frame.height - 1) svg.line(frame.left, base, frame.left + frame.width, base, {});
   return frame.finish();

@@ -80,30 +80,37 @@ std::string HeatMap::svg() const {
   };
   const double w = frame.width / nx, h = frame.height / ny;
   svg.rectangle(frame.left, frame.top, frame.width, frame.height, "#d0d7de");
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) {
-      const double value =
-          values[static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i)];
-      if (std::isnan(value)) continue;
-      // A little overlap hides the seams that browsers leave between neighbouring rectangles.
-      svg.rectangle(frame.left + i * w, frame.top + frame.height - (j + 1) * h,
-                    std::min(w + 0.4, frame.width - i * w), h, colour_of(fraction(value)));
+  for (int j = 0; j < ny; ++j) {
+    const double* row = values.data() + static_cast<std::ptrdiff_t>(j) * nx;
+    // Neighbours of one colour share a rectangle.
+    for (int begin = 0, end = 0; begin < nx; begin = end) {
+      const auto colour_at = [&](int i) { return std::isnan(row[i]) ? "" : colour_of(fraction(row[i])); };
+      const std::string cell_colour = colour_at(begin);
+      for (end = begin + 1; end < nx && colour_at(end) == cell_colour;) ++end;
+      if (!cell_colour.empty())
+        svg.rectangle(frame.left + begin * w, frame.top + frame.height - (j + 1) * h, (end - begin) * w, h,
+                      cell_colour);
     }
+  }
 
+  Svg::Font small, turned;
+  small.size = 12;
+  turned.anchor = Svg::Anchor::middle;
+  turned.rotation = -90;
   const double bar_left = frame.left + frame.width + bar_gap;
   constexpr int bands = 64;
   const double band = frame.height / bands;
   for (int k = 0; k < bands; ++k)
-    svg.rectangle(bar_left, frame.top + frame.height - (k + 1) * band, bar_width, band + (k > 0 ? 0.4 : 0),
+    svg.rectangle(bar_left, frame.top + frame.height - (k + 1) * band, bar_width, band,
                   colour_of((k + 0.5) / bands));
   svg.rectangle(bar_left, frame.top, bar_width, frame.height, "none", {"#57606a", 1, ""});
   for (std::size_t k = 0; k < scale.values.size(); ++k) {
     const double at = frame.top + frame.height * (1 - fraction(scale.values[k]));
     svg.line(bar_left + bar_width, at, bar_left + bar_width + 5, at, {"#57606a", 1, ""});
-    svg.text(bar_left + bar_width + 9, at + 4.2, scale.labels[k], {});
+    svg.text(bar_left + bar_width + 9, at + 4.2, scale.labels[k], small);
   }
   svg.text(bar_left + bar_width + 9 + label_width + 20, frame.top + frame.height / 2,
-           with_unit(colour.title, colour.unit), {13, "#1f2328", Svg::Anchor::middle, false, -90});
+           with_unit(colour.title, colour.unit), turned);
   return frame.finish();
 }
 

@@ -18,7 +18,7 @@ constexpr double reference_label_width = 150;
 const Svg::Stroke grid_stroke{"#e4e7eb", 1, ""};
 const Svg::Stroke minor_grid_stroke{"#f1f3f5", 1, ""};
 const Svg::Stroke axis_stroke{"#57606a", 1, ""};
-const Svg::Stroke reference_stroke{"#444c56", 1.3, "7 3 2 3"};
+const Svg::Stroke reference_stroke{"#6e7781", 1.2, "6 3"};
 const Svg::Stroke leader_stroke{"#8c959f", 0.8, ""};
 const std::string quiet_text = "#444c56";
 
@@ -120,7 +120,7 @@ PlotFrame::PlotFrame(const Content& content_) : content(content_), drawing(0, 0,
           ? 0
           : static_cast<double>(
                 wrapped(with_unit(content.y.title, content.y.unit), height, axis_size).size());
-  left = edge + y_title_lines * line_height + 6 + widest(content.y_ticks.labels, small_size) + 8;
+  left = y_title_lines * line_height + 6 + widest(content.y_ticks.labels, small_size) + 8;
 
   double labels = 0;
   for (const ReferenceLine& r : content.horizontal)
@@ -148,19 +148,9 @@ PlotFrame::PlotFrame(const Content& content_) : content(content_), drawing(0, 0,
         width -= missing;
     }
 
-  const auto title_lines = wrapped(content.title, total_width - 2 * edge, title_size);
+  const auto title_lines = wrapped(content.title, total_width, title_size);
   title_height = content.title.empty() ? 4 : 8 + 20 * static_cast<double>(title_lines.size());
-  double used = 1e9;
-  for (std::size_t i = 0; i < content.legend.size(); ++i) {
-    const double need = legend_sample + 8 + text_width(content.legend[i].label, small_size) + legend_gap;
-    if (used + need - legend_gap > total_width - left - edge) {
-      legend_rows.emplace_back();
-      used = 0;
-    }
-    legend_rows.back().push_back(i);
-    used += need;
-  }
-  legend_height = legend_row * static_cast<double>(legend_rows.size()) + (legend_rows.empty() ? 0 : 6);
+  place_legend();
 
   place_vertical_labels();
 
@@ -175,6 +165,29 @@ PlotFrame::PlotFrame(const Content& content_) : content(content_), drawing(0, 0,
   drawing = Svg(total_width, total_height, content.title);
   draw_title_and_legend();
   draw_grid();
+}
+
+void PlotFrame::place_legend() {
+  // In one row if it fits, otherwise in columns of equal width.
+  const double room = total_width - left + legend_gap;
+  std::vector<double> widths;
+  double sum = 0, largest = 1;
+  for (const LegendEntry& entry : content.legend) {
+    widths.push_back(legend_sample + 8 + text_width(entry.label, small_size) + legend_gap);
+    sum += widths.back();
+    largest = std::max(largest, widths.back());
+  }
+  const bool one_row = sum <= room;
+  const auto per_row =
+      one_row ? widths.size() : static_cast<std::size_t>(std::max(1.0, std::floor(room / largest)));
+  double at = left;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (i % per_row == 0) at = left;
+    legend_places.emplace_back(at, title_height + legend_row * (static_cast<double>(i / per_row) + 0.5));
+    at += one_row ? widths[i] : largest;
+  }
+  if (!widths.empty())
+    legend_height = legend_row * static_cast<double>((widths.size() - 1) / per_row + 1) + 6;
 }
 
 void PlotFrame::place_vertical_labels() {
@@ -198,18 +211,14 @@ void PlotFrame::place_vertical_labels() {
 void PlotFrame::draw_title_and_legend() {
   Svg::Font bold = font(title_size, Svg::Anchor::start);
   bold.bold = true;
-  const auto lines = wrapped(content.title, total_width - 2 * edge, title_size);
+  const auto lines = wrapped(content.title, total_width, title_size);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    drawing.text(edge, 18 + 20 * static_cast<double>(i), lines[i], bold);
-  for (std::size_t row = 0; row < legend_rows.size(); ++row) {
-    double at = left;
-    const double y_middle = title_height + legend_row * (static_cast<double>(row) + 0.5);
-    for (const std::size_t i : legend_rows[row]) {
-      const LegendEntry& entry = content.legend[i];
-      entry.sample(drawing, at, y_middle, legend_sample);
-      drawing.text(at + legend_sample + 8, y_middle + 4.2, entry.label, font(small_size, Svg::Anchor::start));
-      at += legend_sample + 8 + text_width(entry.label, small_size) + legend_gap;
-    }
+    drawing.text(0, 18 + 20 * static_cast<double>(i), lines[i], bold);
+  for (std::size_t i = 0; i < content.legend.size(); ++i) {
+    const auto [at, middle] = legend_places[i];
+    content.legend[i].sample(drawing, at, middle, legend_sample);
+    drawing.text(at + legend_sample + 8, middle + 4.2, content.legend[i].label,
+                 font(small_size, Svg::Anchor::start));
   }
 }
 
@@ -245,7 +254,7 @@ void PlotFrame::draw_axes() {
     turned.rotation = -90;
     const auto lines = wrapped(with_unit(content.y.title, content.y.unit), height, axis_size);
     for (std::size_t i = 0; i < lines.size(); ++i)
-      drawing.text(edge + 11 + line_height * static_cast<double>(i), top + height / 2, lines[i], turned);
+      drawing.text(11 + line_height * static_cast<double>(i), top + height / 2, lines[i], turned);
   }
   if (!content.note.empty())
     drawing.text(left, total_height - 5, content.note, font(small_size, Svg::Anchor::start, quiet_text));
@@ -291,7 +300,6 @@ void PlotFrame::draw_references() {
 }
 
 std::string PlotFrame::finish() {
-  draw_references();
   draw_axes();
   return drawing.finish();
 }

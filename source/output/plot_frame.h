@@ -59,18 +59,20 @@ class PlotFrame {
   double x(double value) const { return left + position(value, content.x, content.x_ticks) * width; }
   double y(double value) const { return top + (1 - position(value, content.y, content.y_ticks)) * height; }
   Svg& svg() { return drawing; }
-  /// Draws the reference lines (above the data), the axes and closes the drawing.
+  /// The reference lines and their labels; below or above the data, as the plot decides.
+  void draw_references();
+  /// Draws the axes and closes the drawing.
   std::string finish();
 
   double left = 0, top = 0, width = 0, height = 0;  ///< the data rectangle [px]
 
  private:
   static double position(double value, const Axis& axis, const Ticks& ticks);
+  void place_legend();
   void place_vertical_labels();
   void draw_title_and_legend();
   void draw_grid();
   void draw_axes();
-  void draw_references();
 
   struct VerticalLabel {
     double at = 0;     ///< its line [px]
@@ -83,7 +85,7 @@ class PlotFrame {
   std::vector<VerticalLabel> vertical_labels;
   double total_width = 0, total_height = 0;
   double title_height = 0, legend_height = 0, vertical_label_height = 0, right_margin = 0;
-  std::vector<std::vector<std::size_t>> legend_rows;
+  std::vector<std::pair<double, double>> legend_places;  ///< left end and middle of each entry [px]
   std::vector<std::string> x_title_lines;
   Svg drawing;
 };

@@ -1,5 +1,7 @@
 #include "seedflow/output/report.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "seedflow/base/error.h"
@@ -17,7 +19,7 @@ body { margin: 0; background: #fff; color: #1f2328;
   font: 17px/1.6 "Segoe UI", Roboto, "Helvetica Neue", Arial, "Liberation Sans", "DejaVu Sans", sans-serif; }
 main { max-width: 800px; margin: 0 auto; padding: 40px 20px 28px; }
 h1 { font-size: 30px; line-height: 1.22; margin: 0 0 10px; letter-spacing: -0.01em; }
-h2 { font-size: 21px; line-height: 1.3; margin: 46px 0 10px; padding-top: 16px; border-top: 1px solid #d8dee4; }
+h2 { font-size: 21px; line-height: 1.3; margin: 38px 0 10px; padding-top: 16px; border-top: 1px solid #d8dee4; }
 p, ul { margin: 0 0 14px; }
 p.lead { font-size: 19px; line-height: 1.5; color: #3d444d; margin-bottom: 20px; }
 .verdict { border-left: 6px solid; border-radius: 4px; padding: 14px 18px; margin: 0 0 26px; font-size: 18px; line-height: 1.5; }
@@ -37,7 +39,7 @@ th.n, td.n { text-align: right; white-space: nowrap; }
 td.n { padding-left: 10px; }
 tbody tr:last-child td { border-bottom: 1px solid #57606a; }
 .table-title { font-size: 15px; margin: 0 0 6px; }
-code { font: 0.88em "DejaVu Sans Mono", Consolas, Menlo, monospace; background: #f3f5f7; padding: 1px 5px; border-radius: 3px;
+code { font: 0.88em "DejaVu Sans Mono", Consolas, Menlo, monospace; background: rgba(31, 35, 40, 0.06); padding: 1px 4px; border-radius: 3px;
   overflow-wrap: anywhere; }
 footer { margin-top: 46px; padding-top: 14px; border-top: 1px solid #d8dee4; font-size: 14px; color: #57606a; }
 footer p { margin: 0 0 4px; }
@@ -59,7 +61,11 @@ std::string marked_up(const std::string& text) {
       html += code ? "<code>" + inner + "</code>" : "<strong>" + inner + "</strong>";
       i = close + mark.size();
     } else {
-      html += escaped(text.substr(i, 1));
+      // A number and a short word behind it (a unit) stay on one line.
+      const bool before_unit = text[i] == ' ' && i > 0 &&
+                               std::isdigit(static_cast<unsigned char>(text[i - 1])) &&
+                               std::min(text.find_first_of(" .,;:)", i + 1), text.size()) - i <= 5;
+      html += before_unit ? "\u00a0" : escaped(text.substr(i, 1));
       ++i;
     }
   }
@@ -116,13 +122,13 @@ void Report::figure(const std::string& svg, const std::string& caption) {
 }
 
 void Report::add(const LinePlot& plot) {
-  figure(plot.svg(), plot.caption);
+  figure(plot.svg(), plot.caption.empty() ? plot.title : plot.caption);
 }
 void Report::add(const BarPlot& plot) {
-  figure(plot.svg(), plot.caption);
+  figure(plot.svg(), plot.caption.empty() ? plot.title : plot.caption);
 }
 void Report::add(const HeatMap& plot) {
-  figure(plot.svg(), plot.caption);
+  figure(plot.svg(), plot.caption.empty() ? plot.title : plot.caption);
 }
 
 void Report::add(const Table& table) {

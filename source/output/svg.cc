@@ -29,13 +29,23 @@ std::string superscript(const std::string& integer) {
   return text;
 }
 
+std::string without_zeros(std::string number) {
+  if (number.find('.') == std::string::npos) return number;
+  number.erase(number.find_last_not_of('0') + 1);
+  if (number.back() == '.') number.pop_back();
+  return number;
+}
+
+/// With the minus sign of print, which is as wide as a plus.
+std::string with_minus(const std::string& number) {
+  return number[0] == '-' ? "−" + number.substr(1) : number;
+}
+
 /// A coordinate with a hundredth of a pixel.
 std::string px(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.2f", value);
-  std::string s = text;
-  s.erase(s.find_last_not_of('0') + 1);
-  if (s.back() == '.') s.pop_back();
+  const std::string s = without_zeros(text);
   return s == "-0" ? "0" : s;
 }
 
@@ -108,31 +118,27 @@ std::string with_unit(const std::string& title, const std::string& unit) {
   return unit.empty() || unit == "1" ? title : title + " [" + printed_unit(unit) + "]";
 }
 
+std::string printed_power(double value, int significant_digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*e", significant_digits - 1, value);
+  const std::string scientific = text;
+  const auto e = scientific.find('e');
+  const std::string mantissa = without_zeros(scientific.substr(0, e));
+  const std::string power = "10" + superscript(std::to_string(std::stoi(scientific.substr(e + 1))));
+  return with_minus(mantissa == "1" ? power : mantissa == "-1" ? "-" + power : mantissa + " × " + power);
+}
+
 std::string printed_number(double value, int significant_digits) {
   if (std::isnan(value)) return "n/a";
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
   if (value == 0) return "0";
   char text[64];
+  // The exponent after rounding to the wanted digits: 9.9996 has one digit more before the point.
   std::snprintf(text, sizeof text, "%.*e", significant_digits - 1, value);
-  const std::string scientific = text;
-  const auto e = scientific.find('e');
-  const int exponent = std::stoi(scientific.substr(e + 1));
-  const auto without_zeros = [](std::string s) {
-    if (s.find('.') == std::string::npos) return s;
-    s.erase(s.find_last_not_of('0') + 1);
-    if (s.back() == '.') s.pop_back();
-    return s;
-  };
-  std::string result;
-  if (exponent >= -4 && exponent < 6) {
-    std::snprintf(text, sizeof text, "%.*f", std::max(0, significant_digits - 1 - exponent), value);
-    result = without_zeros(text);
-  } else {
-    const std::string mantissa = without_zeros(scientific.substr(0, e));
-    const std::string power = "10" + superscript(std::to_string(exponent));
-    result = mantissa == "1" ? power : mantissa == "-1" ? "-" + power : mantissa + " × " + power;
-  }
-  return result[0] == '-' ? "−" + result.substr(1) : result;
+  const int exponent = std::stoi(std::strchr(text, 'e') + 1);
+  if (exponent < -4 || exponent >= 6) return printed_power(value, significant_digits);
+  std::snprintf(text, sizeof text, "%.*f", std::max(0, significant_digits - 1 - exponent), value);
+  return with_minus(without_zeros(text));
 }
 
 double text_width(const std::string& text, double size) {
@@ -141,11 +147,11 @@ double text_width(const std::string& text, double size) {
     const auto byte = static_cast<unsigned char>(c);
     if ((byte & 0xC0) == 0x80) continue;  // the inner bytes of a UTF-8 character
     if (std::strchr(" iljtfrI.,;:'|!()[]/-", c))
-      width += 0.36;
+      width += 0.33;
     else if (std::strchr("mwMW@%", c))
       width += 0.92;
     else
-      width += std::isupper(byte) ? 0.70 : 0.60;
+      width += std::isupper(byte) ? 0.69 : 0.57;
   }
   return width * size;
 }
@@ -198,8 +204,10 @@ void Svg::polygon(const std::vector<double>& x, const std::vector<double>& y, co
 
 void Svg::rectangle(double x, double y, double width, double height, const std::string& fill,
                     const Stroke& stroke) {
-  body += "<rect" + attribute("x", px(x)) + attribute("y", px(y)) + attribute("width", px(width)) +
-          attribute("height", px(height)) + attribute("fill", fill) + stroked(stroke) + "/>\n";
+  // Sharp edges: neighbouring cells of a map would show seams.
+  body += "<rect shape-rendering=\"crispEdges\"" + attribute("x", px(x)) + attribute("y", px(y)) +
+          attribute("width", px(width)) + attribute("height", px(height)) + attribute("fill", fill) +
+          stroked(stroke) + "/>\n";
 }
 
 void Svg::circle(double x, double y, double radius, const std::string& fill, const Stroke& stroke) {
@@ -214,6 +222,8 @@ void Svg::text(double x, double y, const std::string& words, const Font& font) {
       attribute("fill", font.colour) +
       (font.anchor == Anchor::start ? "" : attribute("text-anchor", anchors[static_cast<int>(font.anchor)])) +
       (font.bold ? " font-weight=\"600\"" : "") +
+      (font.halo ? " stroke=\"#fff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\""
+                 : "") +
       (font.rotation == 0
            ? ""
            : attribute("transform", "rotate(" + px(font.rotation) + " " + px(x) + " " + px(y) + ")")) +

@@ -106,7 +106,10 @@ Ticks logarithmic_ticks(double low, double high, int wanted, bool fix_low, bool 
   }
   for (const double c : candidates)
     if (c >= ticks.low * (1 - slack) && c <= ticks.high * (1 + slack)) ticks.values.push_back(c);
-  for (const double v : ticks.values) ticks.labels.push_back(printed_number(v, 1));
+  // Either plain numbers everywhere or powers of ten everywhere.
+  const bool plain = ticks.low >= 0.99e-4 && ticks.high < 1.01e5;
+  for (const double v : ticks.values)
+    ticks.labels.push_back(plain ? printed_number(v, 1) : printed_power(v, 1));
   for (int e = first - 1; e <= last + 1; ++e)
     for (int factor = 1; factor < 10; ++factor) {
       const double v = value(e, factor);

@@ -19,6 +19,9 @@ std::string with_unit(const std::string& title, const std::string& unit);
 /// 10⁻⁷".
 std::string printed_number(double value, int significant_digits = 4);
 
+/// The same always with a power of ten: "2 × 10⁻³", "10⁴".
+std::string printed_power(double value, int significant_digits = 4);
+
 /// Estimated width of UTF-8 text in a common sans-serif typeface [same unit as size], rather too wide than
 /// too narrow.
 double text_width(const std::string& text, double size);
@@ -40,6 +43,7 @@ class Svg {
     std::string colour = "#1f2328";
     Anchor anchor = Anchor::start;
     bool bold = false;
+    bool halo = false;    ///< a white rim, for text on lines
     double rotation = 0;  ///< degrees, about the text's own position
   };
 
