@@ -1,6 +1,7 @@
 #include "seedflow/fluid/prescribed_air.h"
 
 #include <deal.II/base/function_parser.h>
+#include <deal.II/lac/vector.h>
 
 #include <cmath>
 

@@ -92,7 +92,7 @@ class Fluid {
   // At the quadrature points, after a step.
   std::vector<Vector> velocity() const;           ///< u, satisfies mass [m/s]
   std::vector<Vector> pressure_gradient() const;  ///< grad p [Pa/m]
-  std::vector<Vector> vorticity() const;          ///< curl u~ [1/s]; in 2D (0-th component: the z component, 0)
+  std::vector<Vec3> vorticity() const;            ///< curl u~ [1/s]; in 2D only its z component differs from 0
   std::vector<Vector> acceleration() const;       ///< Du~/Dt = (u - u_old)/dt + u.grad u~ [m/s2]
 
   const MassBalance& mass_balance() const;
