@@ -6,7 +6,9 @@ namespace seedflow {
 
 namespace {
 
-double sphere_volume(double radius) { return 4.0 / 3.0 * M_PI * radius * radius * radius; }
+double sphere_volume(double radius) {
+  return 4.0 / 3.0 * M_PI * radius * radius * radius;
+}
 
 /// Surface of the sphere of equal volume over the surface of the ellipsoid (Knud Thomsen's approximation,
 /// p = 1.6075, relative error below 1.061 %).
@@ -36,10 +38,12 @@ Bodies::Bodies(const Dem& dem, const CouplingParameters& parameters) {
     } else {
       for (int s = first; s < last; ++s) {
         const double part = sphere_volume(dem.radii()[s]) / spheres_volume;
-        body.push_back({seed, s, s + 1, 2 * dem.radii()[s], dem.masses()[s], part * solid, part * buoyant, 1.0});
+        body.push_back(
+            {seed, s, s + 1, 2 * dem.radii()[s], dem.masses()[s], part * solid, part * buoyant, 1.0});
       }
     }
   }
+  radius = dem.radii();
   mass_share.resize(dem.n_spheres());
   for (const Body& b : body)
     for (int s = b.first; s < b.last; ++s) mass_share[s] = dem.masses()[s] / b.mass;
@@ -61,6 +65,25 @@ void Bodies::update(const Dem& dem) {
     const bool whole_seed = body[b].last - body[b].first > 1;
     angular_velocity[b] = whole_seed ? dem.seed_state(body[b].seed).spin : sphere_spins[body[b].first];
   }
+}
+
+SphereLoads Bodies::share_loads(const std::vector<BodyForce>& force,
+                                const std::vector<Vec3>& flow_velocity) const {
+  SphereLoads loads;
+  loads.force.resize(n_spheres());
+  loads.torque.resize(n_spheres());
+  loads.drag_coefficient.resize(n_spheres());
+  loads.flow_velocity.resize(n_spheres());
+  loads.added_mass.resize(n_spheres());
+  for (std::size_t b = 0; b < body.size(); ++b)
+    for (int s = body[b].first; s < body[b].last; ++s) {
+      loads.force[s] = mass_share[s] * force[b].force;
+      loads.torque[s] = mass_share[s] * force[b].torque;
+      loads.drag_coefficient[s] = mass_share[s] * force[b].drag_coefficient;
+      loads.flow_velocity[s] = flow_velocity[b];
+      loads.added_mass[s] = mass_share[s] * force[b].added_mass;
+    }
+  return loads;
 }
 
 std::vector<Vec3> Bodies::sum(const std::vector<Vec3>& of_spheres) const {

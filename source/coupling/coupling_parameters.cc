@@ -4,19 +4,24 @@ namespace seedflow {
 
 void CouplingParameters::declare(Parameters& p) {
   const auto section = p.section("Coupling", "How seeds and air see each other.");
-  p.choice("Drag on", drag_on, {"seed", "sub-sphere"},
-           "What is dragged as one body. 'sub-sphere' is the source paper's literal reading: every sub-sphere is "
-           "dragged as if it were alone (Eqs. 6-7). 'seed' computes the drag of the whole seed once and shares it "
-           "over its sub-spheres.");
-  p.choice("Exchange kernel", exchange_kernel, {"gaussian", "cell"},
-           "Where a body feels the air and where its reaction goes, always with the same weights. 'cell' is the "
-           "cell that contains the body's centre (Eq. 8); 'gaussian' has the width of the seed and converges under "
-           "mesh refinement.");
+  p.choice(
+      "Drag on", drag_on, {"seed", "sub-sphere"},
+      "What is dragged as one body. 'sub-sphere' is the source paper's literal reading: every sub-sphere is "
+      "dragged as if it were alone (Eqs. 6-7). 'seed' computes the drag of the whole seed once and shares it "
+      "over its sub-spheres.");
+  p.choice(
+      "Exchange kernel", exchange_kernel, {"gaussian", "cell"},
+      "Where a body feels the air and where its reaction goes, always with the same weights. 'cell' is the "
+      "cell that contains the body's centre (Eq. 8); 'gaussian' has the width of the seed and converges "
+      "under "
+      "mesh refinement.");
   p.choice("Void fraction kernel", void_fraction_kernel, {"gaussian", "sampled", "none"},
-           "How a seed's volume is taken from the air. 'sampled' counts sample points in cells (Eq. 5); 'none' leaves "
+           "How a seed's volume is taken from the air. 'sampled' counts sample points in cells (Eq. 5); "
+           "'none' leaves "
            "the void fraction at 1.");
-  p.number("Kernel width", kernel_width, "m", Range::non_negative(),
-           "Standard deviation of the Gaussian; 0 means one seed diameter. It should not be smaller than a cell.");
+  p.number(
+      "Kernel width", kernel_width, "m", Range::non_negative(),
+      "Standard deviation of the Gaussian; 0 means one seed diameter. It should not be smaller than a cell.");
   p.integer("Samples per diameter", samples, Range::between(2, 100),
             "Sample points along a sub-sphere's diameter (Eq. 5).");
   p.choice("Solid volume", solid_volume, {"seed", "sub-spheres"},

@@ -22,8 +22,8 @@ void add_cell_kernel(PointExchange& row, const PointLocation<3>& location, const
   if (cell != PointLocation<3>::not_here) add_uniformly_in_cell(row, layout, cell, 1.0);
 }
 
-void add_sampled_kernel(PointExchange& row, const PointLocation<3>& location, const QuadratureLayout<3>& layout,
-                        const Vec3& centre, double radius, int samples) {
+void add_sampled_kernel(PointExchange& row, const PointLocation<3>& location,
+                        const QuadratureLayout<3>& layout, const Vec3& centre, double radius, int samples) {
   // Neighbouring samples mostly share a cell; they are counted first and written once per cell.
   std::vector<std::pair<int, int>> count;  // cell, samples in it
   const double spacing = 2.0 * radius / samples, first = -radius + 0.5 * spacing;
@@ -45,8 +45,8 @@ void add_sampled_kernel(PointExchange& row, const PointLocation<3>& location, co
   for (const auto& [cell, n] : count) add_uniformly_in_cell(row, layout, cell, n);
 }
 
-void add_gaussian_kernel(PointExchange& row, const PointLocation<3>& location, const QuadratureLayout<3>& layout,
-                         const Vec3& centre, double sigma) {
+void add_gaussian_kernel(PointExchange& row, const PointLocation<3>& location,
+                         const QuadratureLayout<3>& layout, const Vec3& centre, double sigma) {
   const double reach = gaussian_cut_off * sigma, factor = -0.5 / (sigma * sigma);
   const Point<3> c(centre.x, centre.y, centre.z);
   Point<3> low = c, high = c;

@@ -11,19 +11,23 @@ Tensor<1, 3> as_tensor(const Vec3& a) {
   for (int d = 0; d < 3; ++d) t[d] = a[d];
   return t;
 }
-double as_tensor(double a) { return a; }
+double as_tensor(double a) {
+  return a;
+}
 
 void add_scaled(Vec3& sum, double w, const Tensor<1, 3>& value) {
   sum.x += w * value[0], sum.y += w * value[1], sum.z += w * value[2];
 }
-void add_scaled(double& sum, double w, double value) { sum += w * value; }
+void add_scaled(double& sum, double w, double value) {
+  sum += w * value;
+}
 
 /// Sums arrays of doubles, or of structs of doubles, over the ranks in place.
 template <typename T>
 void sum_over_ranks(std::vector<T>& values, MPI_Comm comm) {
   if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1 || values.empty()) return;
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size() * sizeof(T) / sizeof(double)), MPI_DOUBLE,
-                MPI_SUM, comm);
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size() * sizeof(T) / sizeof(double)),
+                MPI_DOUBLE, MPI_SUM, comm);
 }
 
 template <typename Average, typename Entries, typename Value>
@@ -38,8 +42,9 @@ std::vector<Average> weighted_sums(const std::vector<std::size_t>& row_end, cons
 }
 
 template <typename Amount, typename Entries, typename Value>
-void deposit_rows(const std::vector<std::size_t>& row_end, const Entries& entries, const std::vector<double>& JxW,
-                  const std::vector<Amount>& amount, std::vector<Value>& density) {
+void deposit_rows(const std::vector<std::size_t>& row_end, const Entries& entries,
+                  const std::vector<double>& JxW, const std::vector<Amount>& amount,
+                  std::vector<Value>& density) {
   std::size_t e = 0;
   for (std::size_t p = 0; p < row_end.size(); ++p) {
     const Value value = as_tensor(amount[p]);

@@ -35,8 +35,9 @@ PrescribedAir::PrescribedAir(const PrescribedAirParameters& p, double density, d
       one.initialize("x,y,z,t", p.velocity[d], {{"pi", M_PI}}, true);
       if (!std::isfinite(one.value({0, 0, 0}))) throw InputError("not finite at x = y = z = t = 0");
     } catch (const std::exception& error) {
-      throw InputError(entry + ": the expression \"" + p.velocity[d] + "\" cannot be used: " + error.what() +
-                       "\nAllowed: numbers, x, y, z, t, pi, + - * / ^, sin, cos, exp, sqrt, if(a<b,c,d), ...");
+      throw InputError(
+          entry + ": the expression \"" + p.velocity[d] + "\" cannot be used: " + error.what() +
+          "\nAllowed: numbers, x, y, z, t, pi, + - * / ^, sin, cos, exp, sqrt, if(a<b,c,d), ...");
     }
   }
   expressions->parser.initialize("x,y,z,t", p.velocity[0] + ";" + p.velocity[1] + ";" + p.velocity[2],

@@ -13,8 +13,10 @@ namespace {
 /// Copies the tree below `cell` and returns the entry that stands for it.
 template <int dim>
 std::int32_t copy_tree(const typename Triangulation<dim>::cell_iterator& cell,
-                       const std::vector<std::vector<std::int32_t>>& owned_number, std::vector<std::int32_t>& node) {
-  if (cell->is_active()) return cell->is_locally_owned() ? -2 - owned_number[cell->level()][cell->index()] : -1;
+                       const std::vector<std::vector<std::int32_t>>& owned_number,
+                       std::vector<std::int32_t>& node) {
+  if (cell->is_active())
+    return cell->is_locally_owned() ? -2 - owned_number[cell->level()][cell->index()] : -1;
   const std::size_t first = node.size();
   node.resize(first + (1u << dim), -1);
   for (unsigned int child = 0; child < (1u << dim); ++child) {
@@ -54,7 +56,8 @@ void PointLocation<dim>::build(const Triangulation<dim>& triangulation, const Po
     for (int d = dim - 1; d >= 0; --d) {
       const double position = offset[d] * inverse_coarse_size[d];
       if (!(std::abs(position - std::floor(position) - 0.5) < 1e-6) || position < 0 || position > cells[d])
-        throw std::logic_error("PointLocation: the coarse mesh is not the box lattice it was announced to be");
+        throw std::logic_error(
+            "PointLocation: the coarse mesh is not the box lattice it was announced to be");
       index = index * coarse_cells[d] + static_cast<int>(position);
     }
     root[index] = copy_tree<dim>(cell, owned_number, node);

@@ -12,7 +12,8 @@ namespace {
 
 using dealii::Tensor;
 
-const std::vector<Vec3> centres = {{0.0150, 0.0150, 0.0300}, {0.0165, 0.0135, 0.0211}, {0.004, 0.0261, 0.0523}};
+const std::vector<Vec3> centres = {
+    {0.0150, 0.0150, 0.0300}, {0.0165, 0.0135, 0.0211}, {0.004, 0.0261, 0.0523}};
 
 /// All kernels the coupling offers, by name.
 struct Case {
@@ -20,11 +21,10 @@ struct Case {
   void (*fill)(PointExchange&, const RefinedBox&, const Vec3&);
 };
 const Case cases[] = {
-    {"cell", [](PointExchange& e, const RefinedBox& b, const Vec3& x) { add_cell_kernel(e, b.location, b.layout, x); }},
-    {"sampled",
-     [](PointExchange& e, const RefinedBox& b, const Vec3& x) {
-       add_sampled_kernel(e, b.location, b.layout, x, 0.002, 20);
-     }},
+    {"cell", [](PointExchange& e, const RefinedBox& b,
+                const Vec3& x) { add_cell_kernel(e, b.location, b.layout, x); }},
+    {"sampled", [](PointExchange& e, const RefinedBox& b,
+                   const Vec3& x) { add_sampled_kernel(e, b.location, b.layout, x, 0.002, 20); }},
     {"gaussian", [](PointExchange& e, const RefinedBox& b, const Vec3& x) {
        add_gaussian_kernel(e, b.location, b.layout, x, 0.004);
      }}};
@@ -96,8 +96,8 @@ TEST(PointExchangeMpi, sampledShareOfACellTendsToTheExactShare) {
 }
 
 TEST(PointExchangeMpi, gaussianHasItsStandardDeviation) {
-  // Second moment of the discrete kernel on 3 mm cells: sigma^2 per direction, to the 1e-3 that the cut-off at
-  // 4.5 sigma (3e-4) and two-point quadrature leave.
+  // Second moment of the discrete kernel on 3 mm cells: sigma^2 per direction, to the 1e-3 that the cut-off
+  // at 4.5 sigma (3e-4) and two-point quadrature leave.
   RefinedBox box;
   PointExchange exchange(box.layout, MPI_COMM_WORLD);
   const Vec3 centre{0.0153, 0.0147, 0.031};
@@ -105,7 +105,8 @@ TEST(PointExchangeMpi, gaussianHasItsStandardDeviation) {
   exchange.next();
   ASSERT_EQ(exchange.normalize(), -1);
   std::vector<double> moment(box.layout.size());
-  for (std::size_t q = 0; q < moment.size(); ++q) moment[q] = std::pow(box.layout.position[q][2] - centre.z, 2);
+  for (std::size_t q = 0; q < moment.size(); ++q)
+    moment[q] = std::pow(box.layout.position[q][2] - centre.z, 2);
   EXPECT_NEAR(exchange.average(moment)[0], 9e-6, 1e-3 * 9e-6);
 }
 

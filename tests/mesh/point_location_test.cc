@@ -23,7 +23,8 @@ struct RefinedBox {
     dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, {3, 4, 5}, lower, upper);
     for (int cycle = 0; cycle < 2; ++cycle) {
       for (const auto& cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned() && cell->center().distance(Point<3>(0, 0.4, 0.5)) < 0.25) cell->set_refine_flag();
+        if (cell->is_locally_owned() && cell->center().distance(Point<3>(0, 0.4, 0.5)) < 0.25)
+          cell->set_refine_flag();
       triangulation.execute_coarsening_and_refinement();
     }
     location.build(triangulation, lower, upper, {{3, 4, 5}});
@@ -60,11 +61,13 @@ TEST(PointLocationMpi, cellsInBoxAreThoseThatOverlap) {
   RefinedBox box;
   const Point<3> low(-0.03, 0.31, 0.28), high(0.07, 0.52, 0.64);
   std::set<int> found;
-  box.location.cells_in_box(low, high, [&](int c) { EXPECT_TRUE(found.insert(c).second) << "visited twice"; });
+  box.location.cells_in_box(low, high,
+                            [&](int c) { EXPECT_TRUE(found.insert(c).second) << "visited twice"; });
   for (unsigned int c = 0; c < box.owned.size(); ++c) {
     const auto bounds = box.owned[c]->bounding_box().get_boundary_points();
     bool overlaps = true;
-    for (int d = 0; d < 3; ++d) overlaps = overlaps && bounds.first[d] <= high[d] && bounds.second[d] >= low[d];
+    for (int d = 0; d < 3; ++d)
+      overlaps = overlaps && bounds.first[d] <= high[d] && bounds.second[d] >= low[d];
     EXPECT_EQ(found.count(c) == 1, overlaps) << "cell " << c;
   }
 }

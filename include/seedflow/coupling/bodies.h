@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "seedflow/coupling/coupling_parameters.h"
+#include "seedflow/effects/slots.h"
 #include "seedflow/seeds/dem.h"
 
 namespace seedflow {
@@ -40,13 +41,18 @@ class Bodies {
   /// Share of sub-sphere s in its body.
   double share(std::size_t s) const { return mass_share[s]; }
   std::size_t n_spheres() const { return mass_share.size(); }
+  double sphere_radius(std::size_t s) const { return radius[s]; }
+
+  /// Loads on the bodies as loads on their sub-spheres; flow_velocity is the one the drag coefficients refer
+  /// to.
+  SphereLoads share_loads(const std::vector<BodyForce>& force, const std::vector<Vec3>& flow_velocity) const;
 
   /// Sums a quantity of the sub-spheres over each body.
   std::vector<Vec3> sum(const std::vector<Vec3>& of_spheres) const;
 
  private:
   std::vector<Body> body;
-  std::vector<double> mass_share;
+  std::vector<double> mass_share, radius;
   std::vector<Vec3> sphere_positions, sphere_velocities, sphere_spins;
 };
 

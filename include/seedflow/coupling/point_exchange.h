@@ -16,16 +16,18 @@ namespace seedflow {
 ///     average:  <u>_p = sum_q w_pq u(x_q)                     (what the point sees)
 ///     deposit:  f(x_q) = sum_p F_p w_pq / JxW_q               (what the air gets; integral f dV = sum_p F_p)
 ///
-/// One is the transpose of the other, and the weights of a point add up to 1 over all ranks. So an exchange with
-/// coefficient k, F_p = k (<u>_p - v_p), equals the volume integral of the deposited force density exactly, and a
-/// deposited particle volume is the particle's volume exactly.
+/// One is the transpose of the other, and the weights of a point add up to 1 over all ranks. So an exchange
+/// with coefficient k, F_p = k (<u>_p - v_p), equals the volume integral of the deposited force density
+/// exactly, and a deposited particle volume is the particle's volume exactly.
 ///
 /// Every rank knows every point and holds the weights of its own quadrature points.
 class PointExchange {
  public:
-  PointExchange(const QuadratureLayout<3>& layout, MPI_Comm communicator) : layout(&layout), comm(communicator) {}
+  PointExchange(const QuadratureLayout<3>& layout, MPI_Comm communicator)
+      : layout(&layout), comm(communicator) {}
 
-  /// Starts a new set of points; rows are then filled in order: add() for the entries of a point, next() to end it.
+  /// Starts a new set of points; rows are then filled in order: add() for the entries of a point, next() to
+  /// end it.
   void clear();
   void add(std::uint32_t quadrature_index, double weight) { entries.push_back({quadrature_index, weight}); }
   void next() { row_end.push_back(entries.size()); }

@@ -26,10 +26,10 @@ struct PrescribedAirParameters {
   void declare(Parameters& parameters);
 };
 
-/// Air whose velocity is known beforehand. Derivatives are central differences of the expressions over a thousandth
-/// of the given scales; the pressure gradient is the one with which the flow satisfies the momentum balance,
-/// grad p = -rho Du/Dt + mu laplace u.
-/// Errors: InputError if an expression does not parse or is not finite.
+/// Air whose velocity is known beforehand. Derivatives are central differences of the expressions over a
+/// thousandth of the given scales; the pressure gradient is the one with which the flow satisfies the
+/// momentum balance, grad p = -rho Du/Dt + mu laplace u. Errors: InputError if an expression does not parse
+/// or is not finite.
 class PrescribedAir {
  public:
   PrescribedAir(const PrescribedAirParameters& parameters, double density, double viscosity);

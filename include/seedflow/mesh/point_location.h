@@ -9,13 +9,14 @@
 
 namespace seedflow {
 
-/// Finds the locally owned cell of a point on a box mesh: a lattice of coarse cells, each the root of an octree.
-/// The tree is copied into two flat integer arrays once per mesh change, so that one look-up is a lattice division
-/// and one array read per refinement level (tens of nanoseconds, see `./seedflow bench locate`).
+/// Finds the locally owned cell of a point on a box mesh: a lattice of coarse cells, each the root of an
+/// octree. The tree is copied into two flat integer arrays once per mesh change, so that one look-up is a
+/// lattice division and one array read per refinement level (tens of nanoseconds, see `./seedflow bench
+/// locate`).
 ///
 /// Cells are numbered as in QuadratureLayout: locally owned active cells in traversal order.
-/// A point on a face between two cells belongs to the one on its upper side; on the upper boundary of the box, to the
-/// last cell. A point outside the box has no cell.
+/// A point on a face between two cells belongs to the one on its upper side; on the upper boundary of the
+/// box, to the last cell. A point outside the box has no cell.
 template <int dim>
 class PointLocation {
  public:
@@ -39,8 +40,8 @@ class PointLocation {
   }
 
  private:
-  // A node >= 0 is the index of the first of 2^dim children in `node`; a node < 0 is a leaf: -1 means not owned,
-  // -2 - c is the owned cell c.
+  // A node >= 0 is the index of the first of 2^dim children in `node`; a node < 0 is a leaf: -1 means not
+  // owned, -2 - c is the owned cell c.
   static int leaf_to_cell(std::int32_t leaf) { return leaf == -1 ? not_here : -2 - leaf; }
   template <typename Visit>
   void visit_node(std::int32_t entry, const dealii::Point<dim>& corner, const dealii::Tensor<1, dim>& size,
@@ -59,7 +60,8 @@ void PointLocation<dim>::cells_in_box(const dealii::Point<dim>& low, const deali
                                       const Visit& visit) const {
   std::array<int, 3> first{}, last{};
   for (int d = 0; d < dim; ++d) {
-    const double a = (low[d] - origin[d]) * inverse_coarse_size[d], b = (high[d] - origin[d]) * inverse_coarse_size[d];
+    const double a = (low[d] - origin[d]) * inverse_coarse_size[d],
+                 b = (high[d] - origin[d]) * inverse_coarse_size[d];
     first[d] = a <= 0 ? 0 : static_cast<int>(a);
     last[d] = b < 0 ? -1 : (b >= coarse_cells[d] ? coarse_cells[d] - 1 : static_cast<int>(b));
   }
