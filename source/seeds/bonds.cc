@@ -26,7 +26,8 @@ void BondParameters::declare(Parameters& p) {
            "paper's Eq. 1.");
 }
 
-Bonds::Bonds(const SeedTemplate& model, const BondParameters& bond_parameters) : parameters(bond_parameters) {
+Bonds::Bonds(const SeedTemplate& model, const BondParameters& bond_parameters)
+    : parameters(bond_parameters), n_spheres(model.n_spheres()) {
   for (const Bond& bond : model.bond) {
     Constants c{};
     c.first = std::min(bond.first, bond.second);

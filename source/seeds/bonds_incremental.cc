@@ -17,14 +17,15 @@ SEEDFLOW_INLINE LaneVec3 carried(const LaneVec3& a, const LaneVec3& before, cons
 
 }  // namespace
 
-void Bonds::add_incremental(SphereLanes* spheres, int b, double step) {
+void Bonds::add_incremental(const SphereLanes* spheres, ForceLanes* forces, int b, double step) {
   Lanes lost = {};
   const int n = n_bonds();
   History* const own = &history[static_cast<std::size_t>(b) * n];
   Lanes* const whole = intact.empty() ? nullptr : &intact[static_cast<std::size_t>(b) * n];
   for (int k = 0; k < n; ++k) {
     const Constants& c = constants[k];
-    SphereLanes &si = spheres[c.first], &sj = spheres[c.second];
+    const SphereLanes &si = spheres[c.first], &sj = spheres[c.second];
+    ForceLanes &fi = forces[c.first], &fj = forces[c.second];
     History& h = own[k];
     const LaneVec3 d = sj.position - si.position;
     const LaneVec3 normal = (1.0 / lane_sqrt(dot(d, d))) * d;
@@ -62,11 +63,11 @@ void Bonds::add_incremental(SphereLanes* spheres, int b, double step) {
       moment -= spin_drag;
       lost += step * (dot(drag, rate) + dot(spin_drag, turn));
     }
-    sj.force += force;
-    si.force -= force;
+    fj.force += force;
+    fi.force -= force;
     const LaneVec3 lever = cross(arm, force);
-    sj.torque += moment - lever;
-    si.torque -= moment + lever;
+    fj.torque += moment - lever;
+    fi.torque -= moment + lever;
   }
   dissipated += lane_sum(lost);
 }

@@ -1,5 +1,6 @@
 // Bonds in total form: the forces are the derivatives of the energy in bonds.h.
 
+#include <algorithm>
 #include <cmath>
 
 #include "seedflow/seeds/bonds.h"
@@ -7,19 +8,26 @@
 namespace seedflow {
 
 template <bool breaking, bool damping>
-void Bonds::add_total(SphereLanes* spheres, int b, double step) {
+void Bonds::add_total(const SphereLanes* spheres, ForceLanes* forces, int b, double step,
+                      const SphereLanes* next) {
   Lanes lost = {};
   const int n = n_bonds();
   Lanes* whole = breaking ? &intact[static_cast<std::size_t>(b) * n] : nullptr;
+  const std::size_t block_bytes = next ? n_spheres * sizeof(SphereLanes) : 0;
+  const char* ahead = reinterpret_cast<const char*>(next);
+  const char* const end = ahead + block_bytes;
+  const int lines = static_cast<int>(block_bytes / 64 / std::max(1, n)) + 1;
   for (int k = 0; k < n;) {
     const int i = constants[k].first;
-    SphereLanes& si = spheres[i];
+    const SphereLanes& si = spheres[i];
     const LaneVec3 xi = si.position;
     const LaneQuaternion qi = si.orientation;
-    LaneVec3 force_i = si.force, torque_i = si.torque;
+    LaneVec3 force_i = forces[i].force, torque_i = forces[i].torque;
     for (; k < n && constants[k].first == i; ++k) {
       const Constants& c = constants[k];
-      SphereLanes& sj = spheres[c.second];
+      const SphereLanes& sj = spheres[c.second];
+      ForceLanes& fj = forces[c.second];
+      for (int line = 0; line < lines && ahead < end; ++line, ahead += 64) __builtin_prefetch(ahead, 1, 2);
       const LaneQuaternion qj = sj.orientation;
       const LaneVec3 half{broadcast(c.half[0]), broadcast(c.half[1]), broadcast(c.half[2])};
       const LaneVec3 ai = rotate(qi, half), aj = rotate(qj, half);
@@ -42,10 +50,10 @@ void Bonds::add_total(SphereLanes* spheres, int b, double step) {
         LaneVec3 drag = c.damping[0] * rate, spin_drag = c.damping[1] * turn;
         if constexpr (breaking) drag = whole[k] * drag, spin_drag = whole[k] * spin_drag;
         force_i += drag;
-        sj.force -= drag;
+        fj.force -= drag;
         const LaneVec3 arm = cross(d, drag);
         torque_i += arm + spin_drag;
-        sj.torque += arm - spin_drag;
+        fj.torque += arm - spin_drag;
         lost += step * (dot(drag, rate) + dot(spin_drag, turn));
       }
       if constexpr (breaking) {
@@ -69,24 +77,27 @@ void Bonds::add_total(SphereLanes* spheres, int b, double step) {
         pull = left * pull, lever = left * lever, moment = left * moment;
       }
       force_i += pull;
-      sj.force -= pull;
+      fj.force -= pull;
       torque_i += moment - cross(ai, lever);
-      sj.torque -= moment + cross(aj, lever);
+      fj.torque -= moment + cross(aj, lever);
     }
-    si.force = force_i;
-    si.torque = torque_i;
+    forces[i].force = force_i;
+    forces[i].torque = torque_i;
   }
   if constexpr (breaking || damping) dissipated += lane_sum(lost);
 }
 
-void Bonds::add_forces(SphereLanes* spheres, int b, double step) {
+void Bonds::add_forces(const SphereLanes* spheres, ForceLanes* forces, int b, double step,
+                       const SphereLanes* next) {
   const bool breaking = !intact.empty(), damping = parameters.damping_ratio > 0;
   if (!history.empty())
-    add_incremental(spheres, b, step);
+    add_incremental(spheres, forces, b, step);
   else if (breaking)
-    damping ? add_total<true, true>(spheres, b, step) : add_total<true, false>(spheres, b, step);
+    damping ? add_total<true, true>(spheres, forces, b, step, next)
+            : add_total<true, false>(spheres, forces, b, step, next);
   else
-    damping ? add_total<false, true>(spheres, b, step) : add_total<false, false>(spheres, b, step);
+    damping ? add_total<false, true>(spheres, forces, b, step, next)
+            : add_total<false, false>(spheres, forces, b, step, next);
 }
 
 Lanes Bonds::energy(const SphereLanes* spheres, int b) const {

@@ -65,10 +65,11 @@ void Contacts::add_forces(const std::vector<SphereAddress>& spheres, const std::
     const Vec3 rolling =
         rolling_torque(spin_a - spin_b, own.rolling_friction * f.repulsion * 2 * ra * rb / (ra + rb),
                        a.inertia * b.inertia / (a.inertia + b.inertia), step);
-    a.lanes->force.add(a.lane, f.force);
-    b.lanes->force.add(b.lane, -f.force);
-    a.lanes->torque.add(a.lane, cross(arm_a, f.force) + rolling);
-    b.lanes->torque.add(b.lane, -cross(arm_b, f.force) - rolling);
+    *a.in_contact = *b.in_contact = 1;
+    a.force->force.add(a.lane, f.force);
+    b.force->force.add(b.lane, -f.force);
+    a.force->torque.add(a.lane, cross(arm_a, f.force) + rolling);
+    b.force->torque.add(b.lane, -cross(arm_b, f.force) - rolling);
   }
   wall_force.assign(walls.size(), Vec3{});
   for (Pair& pair : wall_pairs) {
@@ -91,8 +92,9 @@ void Contacts::add_forces(const std::vector<SphereAddress>& spheres, const std::
     const ContactForce f = contact_force(own, c, step, pair.spring);
     const Vec3 rolling = rolling_torque(spin, own.rolling_friction * f.repulsion * rolling_radius(a, x + arm),
                                         a.inertia, step);
-    a.lanes->force.add(a.lane, f.force);
-    a.lanes->torque.add(a.lane, cross(arm, f.force) + rolling);
+    *a.in_contact = 1;
+    a.force->force.add(a.lane, f.force);
+    a.force->torque.add(a.lane, cross(arm, f.force) + rolling);
     wall_force[pair.second] += f.force;
   }
 }

@@ -99,6 +99,8 @@ void Dem::refresh_addresses() {
     for (int i = 0; i < s.n_spheres(); ++i) {
       SphereAddress a;
       a.lanes = s.block(b) + i;
+      a.force = s.forces(b) + i;
+      a.in_contact = &s.in_contact[b];
       a.body = s.rigid ? &s.body[b] : nullptr;
       a.lane = slots[seed].slot % lane_width;
       a.seed = seed;
@@ -111,7 +113,7 @@ void Dem::refresh_addresses() {
   }
 }
 
-void Dem::sum_forces(double step) {
+void Dem::sum_contacts(double step) {
   double fastest = largest_speed;
   for (Wall& w : wall) {
     w.point += step * w.velocity;
@@ -120,16 +122,36 @@ void Dem::sum_forces(double step) {
   if (!contacts.is_listed() || contacts.moved(fastest * step))
     contacts.search(address, first, wall, parameters.contacts);
   contacts.add_forces(address, wall, step, wall_force);
-  for (std::size_t t = 0; t < store.size(); ++t)
-    if (!store[t].rigid)
-      for (int b = 0; b < store[t].n_blocks(); ++b) bonds[t].add_forces(store[t].block(b), b, step);
 }
 
-void Dem::move(const MotionStep& motion) {
+void Dem::sum_bonds(double step) {
+  for (std::size_t t = 0; t < store.size(); ++t)
+    for (int b = 0; b < store[t].n_blocks() && !store[t].rigid; ++b)
+      bonds[t].add_forces(store[t].block(b), store[t].forces(b), b, step);
+}
+
+void Dem::move(double bond_step, const MotionStep& motion) {
   double fastest = 0;
-  for (SeedStore& s : store)
-    for (int b = 0; b < s.n_blocks(); ++b)
-      fastest = std::max(fastest, s.rigid ? move_rigid(s, b, motion) : move_bonded(s, b, motion));
+  for (std::size_t t = 0; t < store.size(); ++t) {
+    SeedStore& s = store[t];
+    scratch.assign(s.rigid ? 0 : s.n_spheres(), ForceLanes{});
+    for (int b = 0; b < s.n_blocks(); ++b) {
+      // Only a block in contact, and every block where the forces are kept (first and last kick), has its own
+      // forces.
+      const bool own = s.in_contact[b] || bond_step == 0 || motion.drift == 0;
+      if (s.rigid) {
+        fastest = std::max(fastest, move_rigid(s, b, own ? s.forces(b) : nullptr, motion));
+      } else {
+        ForceLanes* const forces = own ? s.forces(b) : scratch.data();
+        // Bonds and motion of a block follow each other while the block is in the cache.
+        if (bond_step > 0)
+          bonds[t].add_forces(s.block(b), forces, b, bond_step,
+                              b + 1 < s.n_blocks() ? s.block(b + 1) : nullptr);
+        fastest = std::max(fastest, move_bonded(s, b, forces, motion));
+      }
+      s.in_contact[b] = 0;
+    }
+  }
   largest_speed = std::sqrt(fastest);
   for (std::size_t w = 0; w < wall.size(); ++w) wall_impulse[w] += motion.kick * wall_force[w];
 }
@@ -140,22 +162,22 @@ void Dem::advance(double duration) {
   const double step = duration / n;
   if (!forces_known) {
     refresh_addresses();
-    for (SeedStore& s : store)
-      for (SphereLanes& l : s.sphere) l.force = l.torque = LaneVec3{};
+    for (SeedStore& s : store) std::fill(s.force.begin(), s.force.end(), ForceLanes{});
     contacts.forget();
-    sum_forces(0);
+    sum_contacts(0);
+    sum_bonds(0);
     forces_known = true;
   }
   relax_factors(step);
   begin_impulses(step);
   // Velocity Verlet; the second half kick of one substep and the first of the next are one.
-  move({0.5 * step, step, true, parameters.gravity});
+  move(0, {0.5 * step, step, true, parameters.gravity});
   for (long k = 1; k <= n; ++k) {
-    sum_forces(step);
+    sum_contacts(step);
     if (k < n)
-      move({step, step, false, parameters.gravity});
+      move(step, {step, step, false, parameters.gravity});
     else
-      move({0.5 * step, 0, true, parameters.gravity});
+      move(step, {0.5 * step, 0, true, parameters.gravity});
   }
   end_impulses(duration);
   substeps += n;

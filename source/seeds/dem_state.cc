@@ -188,6 +188,7 @@ void Dem::save(std::ostream& out) const {
   contacts.save(out);
   for (std::size_t t = 0; t < store.size(); ++t) {
     write_binary(out, store[t].sphere);
+    write_binary(out, store[t].force);
     write_binary(out, store[t].load);
     write_binary(out, store[t].body);
     bonds[t].save(out);
@@ -213,6 +214,7 @@ void Dem::load(std::istream& in) {
   contacts.load(in);
   for (std::size_t t = 0; t < store.size(); ++t) {
     read_binary(in, store[t].sphere);
+    read_binary(in, store[t].force);
     read_binary(in, store[t].load);
     read_binary(in, store[t].body);
     bonds[t].load(in);

@@ -7,10 +7,10 @@ namespace {
 // J = h (phi k (u - v) + (phi - 1) F), phi = (1 - exp(-z))/z, z = k h/m. Writing dv through J makes the
 // bookkeeping exact; an added mass joins the inertia of the kick and its share of m dv is booked as an
 // impulse, too.
-SEEDFLOW_INLINE void kick_loaded(SphereLanes& s, LoadLanes& l, const LaneVec3& weight, double mass,
-                                 const MotionStep& step) {
+SEEDFLOW_INLINE void kick_loaded(SphereLanes& s, const ForceLanes& f, LoadLanes& l, const LaneVec3& weight,
+                                 double mass, const MotionStep& step) {
   const Lanes phi = step.half ? l.relaxed_half : l.relaxed_full;
-  const LaneVec3 force = s.force + l.force + weight;
+  const LaneVec3 force = f.force + l.force + weight;
   const LaneVec3 drag_impulse = step.kick * ((phi * l.drag) * (l.flow - s.velocity) + (phi - 1.0) * force);
   const LaneVec3 dv = (1.0 / (mass + l.added_mass)) * (step.kick * force + drag_impulse);
   s.velocity += dv;
@@ -18,26 +18,26 @@ SEEDFLOW_INLINE void kick_loaded(SphereLanes& s, LoadLanes& l, const LaneVec3& w
 }
 
 template <bool loaded>
-double move(SphereLanes* spheres, LoadLanes* loads, Lanes occupied, const SeedTemplate& model,
-            const MotionStep& step) {
+double move(SphereLanes* spheres, ForceLanes* forces, LoadLanes* loads, Lanes occupied,
+            const SeedTemplate& model, const MotionStep& step) {
   const LaneVec3 gravity{step.gravity.x * occupied, step.gravity.y * occupied, step.gravity.z * occupied};
   Lanes fastest = {};
   const int n = model.n_spheres();
   for (int i = 0; i < n; ++i) {
     SphereLanes& s = spheres[i];
+    ForceLanes& f = forces[i];
     const double mass = model.sphere_mass[i], turning = step.kick / model.sphere_inertia[i];
     if constexpr (loaded) {
-      kick_loaded(s, loads[i], mass * gravity, mass, step);
-      s.angular_velocity += turning * (s.torque + loads[i].torque);
+      kick_loaded(s, f, loads[i], mass * gravity, mass, step);
+      s.angular_velocity += turning * (f.torque + loads[i].torque);
     } else {
-      s.velocity += (step.kick / mass) * s.force + step.kick * gravity;
-      s.angular_velocity += turning * s.torque;
+      s.velocity += (step.kick / mass) * f.force + step.kick * gravity;
+      s.angular_velocity += turning * f.torque;
     }
     if (step.drift > 0) {
       s.position += step.drift * s.velocity;
       s.orientation = turned(s.orientation, step.drift * s.angular_velocity);
-      s.force = LaneVec3{};
-      s.torque = LaneVec3{};
+      f = ForceLanes{};
     }
     fastest = lane_max(fastest, dot(s.velocity, s.velocity));
   }
@@ -48,10 +48,10 @@ double move(SphereLanes* spheres, LoadLanes* loads, Lanes occupied, const SeedTe
 
 }  // namespace
 
-double move_bonded(SeedStore& store, int b, const MotionStep& step) {
+double move_bonded(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step) {
   LoadLanes* loads = store.loads(b);
-  return loads ? move<true>(store.block(b), loads, store.occupied[b], store.model, step)
-               : move<false>(store.block(b), nullptr, store.occupied[b], store.model, step);
+  return loads ? move<true>(store.block(b), forces, loads, store.occupied[b], store.model, step)
+               : move<false>(store.block(b), forces, nullptr, store.occupied[b], store.model, step);
 }
 
 }  // namespace seedflow

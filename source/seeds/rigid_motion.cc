@@ -65,16 +65,16 @@ void place_spheres(SeedStore& store, int b) {
   }
 }
 
-double move_rigid(SeedStore& store, int b, const MotionStep& step) {
+double move_rigid(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step) {
   const SeedTemplate& model = store.model;
   BodyLanes& body = store.body[b];
   SphereLanes* const spheres = store.block(b);
   const Axes a = axes_of(body.orientation);
   LaneVec3 force = (store.occupied[b] * model.mass) * broadcast(step.gravity), torque;
-  for (int i = 0; i < store.n_spheres(); ++i) {
-    force += spheres[i].force;
-    torque += spheres[i].torque + cross(along(a, model.position[i]), spheres[i].force);
-    if (step.drift > 0) spheres[i].force = spheres[i].torque = LaneVec3{};
+  for (int i = 0; forces && i < store.n_spheres(); ++i) {
+    force += forces[i].force;
+    torque += forces[i].torque + cross(along(a, model.position[i]), forces[i].force);
+    if (step.drift > 0) forces[i] = ForceLanes{};
   }
   if (store.load.empty()) {
     body.velocity += (step.kick / model.mass) * force;

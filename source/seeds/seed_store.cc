@@ -10,6 +10,8 @@ int SeedStore::add(int seed_number, const Vec3& centre, const Quaternion& orient
   if (lane == 0) {
     occupied.push_back(Lanes{});
     sphere.resize(static_cast<std::size_t>(b + 1) * n);
+    force.resize(sphere.size());
+    in_contact.push_back(0);
     if (rigid) body.emplace_back();
     if (!load.empty()) load.resize(sphere.size());
     for (int i = 0; i < n; ++i)
@@ -37,9 +39,10 @@ int SeedStore::add(int seed_number, const Vec3& centre, const Quaternion& orient
 }
 
 std::size_t SeedStore::bytes() const {
-  return sphere.capacity() * sizeof(SphereLanes) + load.capacity() * sizeof(LoadLanes) +
-         body.capacity() * sizeof(BodyLanes) + rigid_load.capacity() * sizeof(RigidLoad) +
-         occupied.capacity() * sizeof(Lanes) + seed.capacity() * sizeof(int);
+  return sphere.capacity() * sizeof(SphereLanes) + force.capacity() * sizeof(ForceLanes) +
+         in_contact.capacity() + load.capacity() * sizeof(LoadLanes) + body.capacity() * sizeof(BodyLanes) +
+         rigid_load.capacity() * sizeof(RigidLoad) + occupied.capacity() * sizeof(Lanes) +
+         seed.capacity() * sizeof(int);
 }
 
 }  // namespace seedflow

@@ -50,9 +50,11 @@ class Bonds {
   int n_bonds() const { return static_cast<int>(constants.size()); }
   void add_block();
 
-  /// Adds the forces and torques of all bonds of block b to its sub-spheres. `step` [s] is the time since the
-  /// last call (incremental form only).
-  void add_forces(SphereLanes* spheres, int b, double step);
+  /// Adds the forces and torques of all bonds of block b of the spheres to `forces`. `step` [s] is the time
+  /// since the last call (incremental form, damping). `next`: the spheres of the block that comes next or
+  /// none; they are called into the cache meanwhile.
+  void add_forces(const SphereLanes* spheres, ForceLanes* forces, int b, double step,
+                  const SphereLanes* next = nullptr);
 
   /// Elastic energy of each lane [J].
   Lanes energy(const SphereLanes* spheres, int b) const;
@@ -95,13 +97,14 @@ class Bonds {
   };
 
   template <bool breaking, bool damping>
-  void add_total(SphereLanes* spheres, int b, double step);
-  void add_incremental(SphereLanes* spheres, int b, double step);
+  void add_total(const SphereLanes* spheres, ForceLanes* forces, int b, double step, const SphereLanes* next);
+  void add_incremental(const SphereLanes* spheres, ForceLanes* forces, int b, double step);
 
   BondParameters parameters;
   std::vector<Constants> constants;  ///< sorted by first
   std::vector<Lanes> intact;         ///< [block][bond] 1 or 0; empty when bonds cannot break
   std::vector<History> history;      ///< [block][bond]; incremental form only
+  int n_spheres = 0;
   double dissipated = 0;
 };
 

@@ -21,7 +21,9 @@ struct ContactParameters {
 
 /// Where one sub-sphere stands, and what its contacts need to know about it.
 struct SphereAddress {
-  SphereLanes* lanes = nullptr;
+  const SphereLanes* lanes = nullptr;
+  ForceLanes* force = nullptr;
+  char* in_contact = nullptr;       ///< of its block
   const BodyLanes* body = nullptr;  ///< of a rigid seed, else none
   int lane = 0, seed = 0, material = 0;
   double radius = 0;   ///< [m]

@@ -141,8 +141,10 @@ class Dem {
   template <class Member>
   void gather(std::vector<Vec3>& out, Member member) const;
   void refresh_addresses();
-  void sum_forces(double step);
-  void move(const MotionStep& motion);
+  void sum_contacts(double step);
+  void sum_bonds(double step);
+  /// Adds the forces of the bonds (unless bond_step is 0) and moves the seeds.
+  void move(double bond_step, const MotionStep& motion);
   void begin_impulses(double step);
   void end_impulses(double duration);
   void check_state() const;
@@ -159,6 +161,7 @@ class Dem {
   std::vector<Vec3> wall_impulse;
   std::vector<Vec3> wall_force;        ///< on the seeds by each wall at the present positions [N]
   std::vector<SphereAddress> address;  ///< [sub-sphere]; empty after a change of the stores
+  std::vector<ForceLanes> scratch;     ///< one block
   Contacts contacts;
   Vec3 low, high;
   bool bounded = false, loaded = false, forces_known = false;

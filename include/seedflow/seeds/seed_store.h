@@ -13,8 +13,14 @@ struct SphereLanes {
   LaneQuaternion orientation;  ///< template frame to lab frame
   LaneVec3 velocity;           ///< [m/s]
   LaneVec3 angular_velocity;   ///< [rad/s]
-  LaneVec3 force;              ///< of bonds and contacts at the present positions [N]
-  LaneVec3 torque;             ///< of bonds and contacts [N m]
+};
+
+/// What bonds and contacts do to one sub-sphere of lane_width seeds. Apart from the state, because only
+/// blocks in contact need it from one substep to the next; the others sum their bonds in one scratch block
+/// that stays in the cache.
+struct ForceLanes {
+  LaneVec3 force;   ///< [N]
+  LaneVec3 torque;  ///< [N m]
 };
 
 /// What acts on one sub-sphere from outside: force + drag (flow - velocity) - added_mass d velocity/dt.
@@ -67,8 +73,11 @@ struct SeedStore {
   std::vector<int> seed;            ///< [slot] global seed number; slot = block * lane_width + lane
   std::vector<Lanes> occupied;      ///< [block] 1 where the lane holds a seed, else 0
   std::vector<SphereLanes> sphere;  ///< [block * n_spheres + sub-sphere]
-  std::vector<LoadLanes> load;      ///< as sphere; empty while nothing acts from outside
-  std::vector<BodyLanes> body;      ///< [block], rigid seeds only
+  std::vector<ForceLanes>
+      force;                     ///< as sphere; zero but for blocks in contact and between calls of advance()
+  std::vector<char> in_contact;  ///< [block] whether contacts have added to force
+  std::vector<LoadLanes> load;   ///< as sphere; empty while nothing acts from outside
+  std::vector<BodyLanes> body;   ///< [block], rigid seeds only
 
   std::vector<RigidLoad> rigid_load;  ///< [slot], rigid seeds under outside loads only
 
@@ -76,6 +85,7 @@ struct SeedStore {
   int n_spheres() const { return model.n_spheres(); }
   SphereLanes* block(int b) { return sphere.data() + static_cast<std::size_t>(b) * n_spheres(); }
   const SphereLanes* block(int b) const { return sphere.data() + static_cast<std::size_t>(b) * n_spheres(); }
+  ForceLanes* forces(int b) { return force.data() + static_cast<std::size_t>(b) * n_spheres(); }
   LoadLanes* loads(int b) {
     return load.empty() ? nullptr : load.data() + static_cast<std::size_t>(b) * n_spheres();
   }
