@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <ostream>
 
+#include "seedflow/base/nearest_name.h"
 #include "seedflow/effects/definitions.h"
 #include "seedflow/effects/drag_laws.h"
-#include "seedflow/base/nearest_name.h"
 
 namespace seedflow {
 namespace {

@@ -45,12 +45,12 @@ EffectDefinition history_force() {
       "= 0.75 + "
       "c2 Re, with c = 2, c2 = 0.105 and c = 2.5, c2 = 0.2; R = d/2";
   r.numbers = {
-      {"Resolution", 32, "1", Range::between(4, 1000),
+      {"Resolution", 16, "1", Range::between(4, 1000),
        "Samples of the past are kept at distances of age/Resolution: memory and work grow like it, the error "
        "falls like its square."}};
   r.choices = {{"Kernel",
-                "Mei-Adrian",
-                {"Mei-Adrian", "Dorgan-Loth", "Basset"},
+                "Dorgan-Loth",
+                {"Dorgan-Loth", "Mei-Adrian", "Basset"},
                 "Finite-Re kernels with the slip of the moment, or the exact kernel of Stokes flow."},
                {"First slip",
                 "Impulsive",

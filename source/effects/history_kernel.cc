@@ -22,7 +22,8 @@ double decay(const HistoryKernel& k, double y) {
     const double x = 1 + k.kappa * y * std::sqrt(y);
     return 1 / (x * x);
   }
-  return std::pow(1 + k.kappa * std::pow(y, 3 / k.exponent), -k.exponent);
+  const double x = 1 + k.kappa * std::pow(y, 3 / k.exponent);
+  return k.exponent == 2.5 ? 1 / (x * x * std::sqrt(x)) : std::pow(x, -k.exponent);
 }
 
 }  // namespace
@@ -35,6 +36,7 @@ double HistoryKernel::integral(double a, double b) const {
   const double low = std::sqrt(a), high = std::sqrt(b);
   const double length = b > 0 ? (b - a) / (high + low) : 0;  // high - low without cancellation
   if (kappa == 0) return 2 * length;
+  if (a > 0.85 * b) return 2 * length * decay(*this, low + 0.5 * length);
   double sum = 0;
   if (a > 0.5 * b)
     for (const auto& p : gauss_2) sum += p.weight * decay(*this, low + p.position * length);
@@ -44,7 +46,14 @@ double HistoryKernel::integral(double a, double b) const {
 }
 
 double HistoryKernel::step_mean(double a, double b, double step) const {
-  if (a > 4 * step) return integral(a + 0.5 * step, b + 0.5 * step);
+  // The error of a rule in s adds up over all bins to that of the nearest: few points only where s is short
+  // against a.
+  if (a > 64 * step) return integral(a + 0.5 * step, b + 0.5 * step);
+  if (a > 4 * step) {
+    double mean = 0;
+    for (const auto& p : gauss_2) mean += p.weight * integral(a + p.position * step, b + p.position * step);
+    return mean;
+  }
   // With s = step y^2 the root at a = 0 becomes a polynomial.
   double sum = 0;
   for (const auto& p : gauss_4) {

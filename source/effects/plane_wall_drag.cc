@@ -7,30 +7,27 @@
 namespace seedflow {
 namespace {
 
-/// Brenner's exact series for motion towards a plane, gap = (h - R)/R > 0. The terms fall like exp(-2 n
-/// alpha).
-double normal_factor(double gap) {
-  const double alpha = std::acosh(1 + gap);
-  const double sinh2 = std::sinh(2 * alpha), sinh1 = std::sinh(alpha);
+/// Brenner's exact series for motion towards a plane, s = (h - R)/R > 0; its terms fall like exp(-2 n alpha).
+/// Close to the wall, where it needs many terms, the lubrication expansion of Cox & Brenner (within 1e-4 at s
+/// = 0.01).
+double normal_factor(double s) {
+  if (s < 0.01) return 1 / s - 0.2 * std::log(s) + 0.971264;
+  const double alpha = std::acosh(1 + s), sinh1 = std::sinh(alpha), sinh2 = std::sinh(2 * alpha);
   double sum = 0;
-  const int last = static_cast<int>(std::ceil(25 / alpha)) + 5;
-  for (int n = 1; n <= last; ++n) {
-    const double m = 2 * n + 1, argument = m * alpha;
-    // 2 sinh(m a)/(4 sinh^2(m a / 2) - ...) -> 1 for large arguments: no contribution left.
-    if (argument > 60) break;
-    const double half = 2 * std::sinh(0.5 * argument);
-    const double term = (2 * std::sinh(argument) + m * sinh2) / (half * half - m * m * sinh1 * sinh1) - 1;
-    sum += n * (n + 1.0) / ((2.0 * n - 1) * (2.0 * n + 3)) * term;
+  for (int n = 1; (2 * n + 1) * alpha < 50; ++n) {
+    const double m = 2 * n + 1, half = 2 * std::sinh(0.5 * m * alpha), narrow = m * sinh1;
+    const double term = (2 * std::sinh(m * alpha) + m * sinh2) / (half * half - narrow * narrow) - 1;
+    sum += n * (n + 1.0) / ((m - 2) * (m + 2)) * term;
   }
   return 4.0 / 3 * sinh1 * sum;
 }
 
-/// Faxen's series for motion along a plane; near contact the lubrication form of Goldman, Cox and Brenner.
-/// The larger of the two: the series lies above until gap = 0.02 and below from there on.
-double tangential_factor(double gap) {
-  const double x = 1 / (1 + gap), x3 = x * x * x;
+/// Faxen's series for motion along a plane, and near contact the lubrication form of Goldman, Cox and
+/// Brenner, which is the larger of the two below s = 0.03. Within 1.5 % of the exact solution.
+double tangential_factor(double s) {
+  const double x = 1 / (1 + s), x3 = x * x * x;
   const double series = 1 / (1 - 9.0 / 16 * x + x3 / 8 - 45.0 / 256 * x3 * x - x3 * x * x / 16);
-  const double lubrication = -8.0 / 15 * std::log(gap) + 0.9588;
+  const double lubrication = -8.0 / 15 * std::log(s) + 0.9588;
   return std::max(series, lubrication);
 }
 
@@ -53,6 +50,7 @@ EffectDefinition plane_wall_drag() {
                 "s is not taken smaller than this: the roughness of the surfaces, in radii."}};
   r.references = {
       "Brenner (1961), Chem. Eng. Sci. 16, 242-251, doi:10.1016/0009-2509(61)80035-3",
+      "Cox & Brenner (1967), Chem. Eng. Sci. 22, 1753-1777, doi:10.1016/0009-2509(67)80208-2",
       "Goldman, Cox & Brenner (1967), Chem. Eng. Sci. 22, 637-651, doi:10.1016/0009-2509(67)80047-2"};
   r.validity =
       "one plane wall, Re << 1 (used as a first estimate up to Re = 1), wall and fluid at rest far away";
@@ -62,8 +60,9 @@ EffectDefinition plane_wall_drag() {
             const double smallest = settings.numbers[0];
             return [smallest](const FlowAtBody& flow, EffectMemory&, BodyForce& force) {
               const double gap = std::max(2 * flow.wall_distance / flow.diameter - 1, smallest);
-              // From here on both factors differ from 1 by less than 1e-6; without a normal there is no wall.
-              if (gap > 1.2e6 || norm_square(flow.wall_normal) == 0) return;
+              // Beyond 1e4 radii both factors differ from 1 by less than 2e-4; without a normal there is no
+              // wall.
+              if (gap > 1e4 || norm_square(flow.wall_normal) == 0) return;
               const double normal = normal_factor(gap), along = tangential_factor(gap),
                            k = force.drag_coefficient;
               const Vec3 w = slip(flow), w_along = w - dot(w, flow.wall_normal) * flow.wall_normal;
