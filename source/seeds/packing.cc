@@ -16,25 +16,26 @@ namespace {
 class Relaxation {
  public:
   Relaxation(const Shape& shape, int n, double r, PortableRandom random)
-      : shape(shape), inset(r), x(n), v(n), force(n), depth(n, 0.0), depth_at(n) {
-    for (Vec3& a : x) {
-      // Uniform inside; a shape that fills little of its box only needs more tries.
+      : shape(shape), inset(r), x(n), v(n), force(n), wall(n), depth(n, 0.0), depth_at(n), allowed_at(n) {
+    for (int i = 0; i < n; ++i) {
+      // Uniform where a sphere fits; if that is too rare to be hit by chance, next to the deepest point.
       Vec3 outward;
-      do a = random.in_box(shape.low, shape.high);
-      while (shape.signed_distance(a, outward) > 0);
+      int tries = 0;
+      do x[i] = random.in_box(shape.low, shape.high);
+      while (++tries < 2000 && shape.signed_distance(x[i], outward) + r > 0);
+      if (tries == 2000) x[i] = shape.deepest + (1e-3 / tries) * x[i];
+      allowed_at[i] = shape.deepest;
+      confine(i);
     }
-    for (int i = 0; i < n; ++i) confine(i);
   }
 
   Packing jam() {
-    const int n = static_cast<int>(x.size());
-    if (n == 1) return {x, 0.0};
     double rho = dense_radius();
     for (int step = 0; step < 60; ++step) {
       relax(rho);
       const auto [largest, mean] = overlaps(rho);
-      if (largest < 1e-5) break;
-      rho *= 1 - std::max(0.6 * mean, 0.5e-5);
+      if (largest < 1e-4) break;
+      rho *= 1 - std::max(1.2 * mean, 2e-5);
     }
     return {x, smallest_distance()};
   }
@@ -48,20 +49,30 @@ class Relaxation {
     return std::max((ball - inset) * fill / (1 - std::min(fill, 0.9)), 1e-3 * ball);
   }
 
-  /// Moves centre i to the nearest allowed point. The distance changes by no more than the way moved, so a
-  /// centre known to be deep inside is not asked again until it may have left.
+  /// Moves centre i to the nearest allowed point, by repeated steps along the normal where the shape is not
+  /// convex; if those lead nowhere (a place too narrow for the sphere), back to where it last was allowed.
+  /// The distance changes by no more than the way moved, so a centre known to be deep inside is not asked
+  /// again until it may have left.
   void confine(int i) {
+    if (depth[i] > 0 && norm_square(x[i] - depth_at[i]) < depth[i] * depth[i]) return;
     for (int repeat = 0; repeat < 20; ++repeat) {
-      if (depth[i] > 0 && norm(x[i] - depth_at[i]) < depth[i]) return;
       Vec3 outward;
       const double excess = shape.signed_distance(x[i], outward) + inset;
       depth[i] = -excess;
       depth_at[i] = x[i];
-      if (excess <= 0) return;
-      x[i] -= (excess * (1 + 1e-12)) * outward;
+      if (excess <= 0) {
+        allowed_at[i] = x[i];
+        if (repeat == 0) wall[i] = {};
+        return;
+      }
+      wall[i] = outward;
+      x[i] -= (excess + 1e-12 * inset) * outward;
       const double leaving = dot(v[i], outward);
       if (leaving > 0) v[i] -= leaving * outward;
     }
+    x[i] = allowed_at[i];
+    v[i] = {};
+    depth[i] = 0;
   }
 
   void find_pairs(double cutoff) {
@@ -79,7 +90,8 @@ class Relaxation {
     return false;
   }
 
-  /// Unit masses, unit stiffness, linear repulsion (in units of the diameter).
+  /// Unit masses, unit stiffness, linear repulsion; what presses a sphere against the hull is borne by the
+  /// hull.
   void compute_forces(double diameter) {
     std::fill(force.begin(), force.end(), Vec3{});
     for (const auto& [i, j] : pairs) {
@@ -91,6 +103,10 @@ class Relaxation {
       force[i] += f;
       force[j] -= f;
     }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double pressing = dot(force[i], wall[i]);
+      if (pressing > 0) force[i] -= pressing * wall[i];
+    }
   }
 
   void relax(double rho) {
@@ -99,7 +115,7 @@ class Relaxation {
     int downhill = 0;
     std::fill(v.begin(), v.end(), Vec3{});
     find_pairs(diameter + slack);
-    for (int step = 0; step < 600; ++step) {
+    for (int step = 0; step < 300; ++step) {
       if (list_outdated(slack)) find_pairs(diameter + slack);
       compute_forces(diameter);
       double power = 0, vv = 0, ff = 0;
@@ -148,8 +164,9 @@ class Relaxation {
   const Shape& shape;
   const double inset;
   std::vector<Vec3> x, v, force, listed_at;
+  std::vector<Vec3> wall;     ///< outward normal of the hull where a sphere was last held by it, else zero
   std::vector<double> depth;  ///< last known distance to the boundary of the allowed region
-  std::vector<Vec3> depth_at;
+  std::vector<Vec3> depth_at, allowed_at;
   std::vector<std::pair<int, int>> pairs;
 };
 
@@ -158,16 +175,16 @@ class Relaxation {
 Packing pack_spheres(const Shape& shape, int n, double r, std::uint64_t random_number, int attempts) {
   std::ostringstream reason;
   if (n < 1) reason << "the number of sub-spheres is " << n << "; at least 1 is needed.";
-  if (!(r > 0) || r > shape.inscribed_radius * (1 + 1e-12))
+  if (!(r > 0) || r > shape.inscribed_radius * (1 + 1e-9))
     reason << "a sub-sphere of radius " << r << " m does not fit into the seed; allowed: above 0, at most "
            << shape.inscribed_radius << " m.";
   if (!reason.str().empty()) throw InputError("Packing of sub-spheres: " + reason.str());
 
+  if (n == 1) return {{shape.deepest}, 0.0};
   Packing best;
   for (int attempt = 0; attempt < std::max(attempts, 1); ++attempt) {
     Packing found = Relaxation(shape, n, r, PortableRandom(random_number, attempt)).jam();
     if (attempt == 0 || found.smallest_distance > best.smallest_distance) best = std::move(found);
-    if (n == 1) break;
   }
   return best;
 }

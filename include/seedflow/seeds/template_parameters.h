@@ -25,7 +25,7 @@ struct SeedTemplateParameters {
   bool equal_caliper = false;      ///< enlarge the clump to the mean caliper of the real seed
   bool real_inertia = false;       ///< shift mass between sub-spheres to the real seed's inertia
   int random_number = 1;
-  std::string file;  ///< of shape stl or csv
+  std::string file;  ///< of shape stl or csv; relative names: see Parameters::resolve()
 
   void declare(Parameters& parameters);
 };
