@@ -82,14 +82,15 @@ std::string HeatMap::svg() const {
   svg.rectangle(frame.left, frame.top, frame.width, frame.height, "#d0d7de");
   for (int j = 0; j < ny; ++j) {
     const double* row = values.data() + static_cast<std::ptrdiff_t>(j) * nx;
-    // Neighbours of one colour share a rectangle.
+    // Neighbours of one colour share a rectangle; a little overlap leaves no seam at any magnification.
+    constexpr double seam = 0.5;
     for (int begin = 0, end = 0; begin < nx; begin = end) {
       const auto colour_at = [&](int i) { return std::isnan(row[i]) ? "" : colour_of(fraction(row[i])); };
       const std::string cell_colour = colour_at(begin);
       for (end = begin + 1; end < nx && colour_at(end) == cell_colour;) ++end;
       if (!cell_colour.empty())
-        svg.rectangle(frame.left + begin * w, frame.top + frame.height - (j + 1) * h, (end - begin) * w, h,
-                      cell_colour);
+        svg.rectangle(frame.left + begin * w, frame.top + frame.height - (j + 1) * h,
+                      (end - begin) * w + (end < nx ? seam : 0), h + (j > 0 ? seam : 0), cell_colour);
     }
   }
 

@@ -13,39 +13,40 @@ namespace seedflow {
 namespace {
 
 const char* const style_sheet = R"(
-:root { color-scheme: light; }
+:root { color-scheme: light; font-size: 17px; }
 * { box-sizing: border-box; }
 body { margin: 0; background: #fff; color: #1f2328;
-  font: 17px/1.6 "Segoe UI", Roboto, "Helvetica Neue", Arial, "Liberation Sans", "DejaVu Sans", sans-serif; }
+  font: 1rem/1.6 "Segoe UI", Roboto, "Helvetica Neue", Arial, "Liberation Sans", "DejaVu Sans", sans-serif; }
 main { max-width: 800px; margin: 0 auto; padding: 40px 20px 28px; }
-h1 { font-size: 30px; line-height: 1.22; margin: 0 0 10px; letter-spacing: -0.01em; }
-h2 { font-size: 21px; line-height: 1.3; margin: 38px 0 10px; padding-top: 16px; border-top: 1px solid #d8dee4; }
+h1 { font-size: 1.75rem; line-height: 1.22; margin: 0 0 10px; letter-spacing: -0.01em; }
+h2 { font-size: 1.25rem; line-height: 1.3; margin: 38px 0 10px; padding-top: 16px; border-top: 1px solid #d8dee4; }
 p, ul { margin: 0 0 14px; }
-p.lead { font-size: 19px; line-height: 1.5; color: #3d444d; margin-bottom: 20px; }
-.verdict { border-left: 6px solid; border-radius: 4px; padding: 14px 18px; margin: 0 0 26px; font-size: 18px; line-height: 1.5; }
-.verdict b { display: block; font-size: 14px; letter-spacing: 0.02em; }
+p.lead { font-size: 1.1rem; line-height: 1.5; color: #3d444d; margin-bottom: 20px; }
+.verdict { border-left: 6px solid; border-radius: 4px; padding: 14px 18px; margin: 0 0 26px; font-size: 1.06rem; line-height: 1.5; }
+.verdict b { display: block; font-size: 0.85rem; letter-spacing: 0.02em; }
 .agrees { border-color: #00795a; background: #eaf6f1; } .agrees > b { color: #006349; }
 .doubtful { border-color: #b87400; background: #fdf5e6; } .doubtful > b { color: #7f4f00; }
 .disagrees { border-color: #b83f00; background: #fdefe8; } .disagrees > b { color: #983300; }
 .neutral { border-color: #57606a; background: #f3f5f7; } .neutral > b { color: #3d444d; }
 figure { margin: 22px 0 26px; break-inside: avoid; }
 figure svg { display: block; max-width: 100%; height: auto; }
-figcaption, .note { font-size: 15px; line-height: 1.5; color: #444c56; margin-top: 6px; }
+figcaption, .note { font-size: 0.88rem; line-height: 1.5; color: #444c56; margin-top: 6px; }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 15px; line-height: 1.4; min-width: 50%; font-variant-numeric: tabular-nums; }
+table { border-collapse: collapse; font-size: 0.88rem; line-height: 1.4; min-width: 50%; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: 7px 18px 7px 0; border-bottom: 1px solid #e4e7eb; vertical-align: top; }
 th { border-bottom: 2px solid #57606a; vertical-align: bottom; }
 th.n, td.n { text-align: right; white-space: nowrap; }
 td.n { padding-left: 10px; }
 tbody tr:last-child td { border-bottom: 1px solid #57606a; }
-.table-title { font-size: 15px; margin: 0 0 6px; }
+.table-title { font-size: 0.88rem; margin: 0 0 6px; }
 code { font: 0.88em "DejaVu Sans Mono", Consolas, Menlo, monospace; background: rgba(31, 35, 40, 0.06); padding: 1px 4px; border-radius: 3px;
   overflow-wrap: anywhere; }
-footer { margin-top: 46px; padding-top: 14px; border-top: 1px solid #d8dee4; font-size: 14px; color: #57606a; }
+footer { margin-top: 46px; padding-top: 14px; border-top: 1px solid #d8dee4; font-size: 0.82rem; color: #57606a; }
 footer p { margin: 0 0 4px; }
 @page { margin: 16mm; }
-@media print { body { font-size: 11pt; } main { max-width: none; padding: 0; } h2 { break-after: avoid; } p, li { orphans: 3; widows: 3; }
+@media print { :root { font-size: 10.5pt; } main { max-width: none; padding: 0; } h2 { break-after: avoid; } p, li { orphans: 3; widows: 3; }
   .verdict, figure, tr { break-inside: avoid; } .scroll { overflow: visible; }
+  figure { margin: 12px 0 16px; } figure svg { width: auto; max-width: 88%; max-height: 88mm; } h2 { margin-top: 18px; } td, th { padding-top: 4px; padding-bottom: 4px; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )";
 

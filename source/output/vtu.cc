@@ -171,7 +171,7 @@ PvdSeries::PvdSeries(std::filesystem::path file_, double resume_time) : file(std
   write();
 }
 
-void PvdSeries::add(double time, const std::vector<std::string>& data) {
+void PvdSeries::add_parts(double time, const std::vector<std::string>& data) {
   entries.emplace_back(time, data);
   write();
 }

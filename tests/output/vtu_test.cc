@@ -111,7 +111,7 @@ TEST(Pvd, ResumeGivesTheFileOfARunWithoutInterruption) {
   PvdSeries whole(folder / "whole.pvd");
   const auto add = [](PvdSeries& series, int i) {
     const std::string name = "air & seeds_" + std::to_string(i);
-    series.add(i * 0.1 / 3, {name + ".0.vtu", name + ".1.vtu"});
+    series.add_parts(i * 0.1 / 3, {name + ".0.vtu", name + ".1.vtu"});
   };
   for (int i = 0; i < 12; ++i) add(whole, i);
   {

@@ -60,9 +60,10 @@ class PvdSeries {
   /// read.
   PvdSeries(std::filesystem::path file, double resume_time);
 
-  /// `data`: file names relative to the folder of the .pvd (one per rank, or one alone).
-  void add(double time, const std::vector<std::string>& data);
-  void add(double time, const std::string& data) { add(time, std::vector<std::string>{data}); }
+  /// `data`: a file name relative to the folder of the .pvd.
+  void add(double time, const std::string& data) { add_parts(time, {data}); }
+  /// Several files that make up one time together, one per rank say.
+  void add_parts(double time, const std::vector<std::string>& data);
 
   /// How many times have been added so far; handy to number the files.
   int n_times() const { return static_cast<int>(entries.size()); }
