@@ -1,1 +1,18 @@
-int main() { return 0; }
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+#include "seedflow/experiment/agreement.h"
+#include "seedflow/experiment/command_line.h"
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  // The libraries started here (PETSc among them) read options of their own; they get none of ours.
+  int no_arguments = 1;
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
+
+  seedflow::CommandLine command_line;
+  command_line.rank = static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  return seedflow::run_in_agreement(
+      MPI_COMM_WORLD, [&] { return command_line.execute(arguments, std::cout); }, std::cerr);
+}

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <functional>
+#include <iosfwd>
+
+namespace seedflow {
+
+/// Runs `work` on every rank of the communicator and turns what it throws into an ExitStatus, the same on all
+/// ranks: the gravest of them (failed, bad input, interrupted, done). Each different message is written once,
+/// to `errors` of rank 0.
+///
+/// A rank that fails alone leaves the others waiting for it inside a collective call, which nothing but
+/// ending them can resolve: if they do not arrive within `patience` seconds, the rank writes its own message
+/// and ends all of them by MPI_Abort with its status.
+int run_in_agreement(MPI_Comm communicator, const std::function<int()>& work, std::ostream& errors,
+                     double patience = 10);
+
+}  // namespace seedflow
