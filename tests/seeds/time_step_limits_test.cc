@@ -63,11 +63,11 @@ TEST(TimeStepLimits, BondLimitOfAPairIsExactAndIsTheStabilityLimit) {
     run.advance(10 * p.time_step);
     run.set_loads({});
     const double before = run.max_speed();
-    run.advance(60 * p.time_step);  // the growth above the limit is about exp(0.3) in each step
+    run.advance(25 * p.time_step);  // above the limit 1.63 times in each step
     if (factor < 1) {
       EXPECT_LT(run.max_speed(), 10 * before);
     } else {
-      EXPECT_GT(run.max_speed(), 1e4 * before);
+      EXPECT_GT(run.max_speed(), 1e3 * before);
     }
   }
 }
