@@ -1,5 +1,6 @@
 #include "seedflow/output/progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,19 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+int terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+/// The first `n` characters (not bytes) of UTF-8 text.
+std::string first_characters(const std::string& text, int n) {
+  std::size_t end = 0;
+  for (int seen = 0; end < text.size(); ++end)
+    if ((static_cast<unsigned char>(text[end]) & 0xC0) != 0x80 && ++seen > n) break;
+  return text.substr(0, end);
+}
+
 constexpr double redraw_interval = 0.25;      // [s] on a terminal
 constexpr double first_line_interval = 5;     // [s] between plain lines ...
 constexpr double line_interval_growth = 1.5;  // ... growing, so that a log of a day stays short
@@ -24,10 +38,9 @@ constexpr double last_line_interval = 300;
 }  // namespace
 
 Progress::Progress(const std::string& label, double end, double start, int rank)
-    : Progress(
-          label, end, start,
-          Sink{rank == 0 ? &std::cerr : nullptr, rank == 0 && ::isatty(STDERR_FILENO) == 1, steady_seconds}) {
-}
+    : Progress(label, end, start,
+               Sink{rank == 0 ? &std::cerr : nullptr, rank == 0 && ::isatty(STDERR_FILENO) == 1,
+                    steady_seconds, terminal_columns}) {}
 
 Progress::Progress(const std::string& label_, double end_, double start_, Sink sink_)
     : label(label_), end(end_), start(start_), sink(std::move(sink_)), latest(start_) {
@@ -86,6 +99,9 @@ void Progress::print(double clock, const std::string& note, bool last) {
     std::snprintf(text, sizeof text, "%3.0f %%", 100 * done);
   std::string line = label + " " + text + (note.empty() ? "" : "  " + note);
   if (sink.terminal) {
+    // A line that wraps could not be redrawn. Zero columns: unknown.
+    if (const int columns = sink.columns ? sink.columns() : 0; columns > 1 && !last)
+      line = first_characters(line, columns - 1);
     *sink.stream << "\r\033[K" << line << (last ? "\n" : "") << std::flush;
     line_open = !last;
   } else {

@@ -180,6 +180,21 @@ TEST(Checkpoint, AnUnwritableFolderIsAClearErrorAndTheFormerStateStays) {
   EXPECT_EQ(reader.time(), 1);
 }
 
+TEST(Checkpoint, AFullDiskIsAClearErrorAndTheFormerStateStays) {
+  TemporaryFolder folder;
+  write_numbered_checkpoint(folder.path, 1, MPI_COMM_SELF);
+  for (const rlim_t room : {0, 1000, 100000}) {
+    const FileSizeLimit limit(room);
+    const std::string message =
+        message_of<RunError>([&] { write_numbered_checkpoint(folder.path, 2, MPI_COMM_SELF); });
+    EXPECT_CONTAINS(message, "File too large");
+    EXPECT_CONTAINS(message, "Free some space");
+  }
+  CheckpointReader reader(folder.path, MPI_COMM_SELF);
+  EXPECT_EQ(reader.time(), 1);
+  EXPECT_EQ(read_state(reader), numbered_state(1));
+}
+
 struct World {
   World() {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -202,7 +217,9 @@ TEST(CheckpointMpi, EveryRankGetsItsOwnStreamBack) {
   std::string line;
   std::getline(reader.stream("seeds"), line);
   EXPECT_EQ(line, "seeds of rank " + std::to_string(world.rank) + " in round 2");
-  if (world.rank > 0) EXPECT_THROW(reader.stream("walls"), RunError);
+  if (world.rank > 0) {
+    EXPECT_THROW(reader.stream("walls"), RunError);
+  }
 }
 
 TEST(CheckpointMpi, AnotherNumberOfRanksIsBadInputOnAll) {

@@ -1,9 +1,5 @@
 #include "seedflow/output/folder.h"
 
-#include <sys/resource.h>
-
-#include <csignal>
-
 #include "testing.h"
 
 namespace seedflow {
@@ -14,26 +10,6 @@ namespace fs = std::filesystem;
 std::size_t n_files(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
-
-/// Files of this process can grow to so many bytes only while this lives: what a full disk looks like to a
-/// writer.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    former_handler = std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &former);
-    const rlimit limit{bytes, former.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &former);
-    std::signal(SIGXFSZ, former_handler);
-  }
-
- private:
-  rlimit former{};
-  void (*former_handler)(int);
-};
 
 TEST(Folder, CreatesAFolderWithItsParentsAndLeavesItEmpty) {
   TemporaryFolder folder;

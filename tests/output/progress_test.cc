@@ -11,8 +11,9 @@ namespace {
 struct Watched {
   std::ostringstream text;
   double clock = 0;
+  int columns = 0;
   Progress::Sink sink(bool terminal) {
-    return {&text, terminal, [this] { return clock; }};
+    return {&text, terminal, [this] { return clock; }, [this] { return columns; }};
   }
   int lines() const {
     const std::string all = text.str();
@@ -51,6 +52,15 @@ TEST(Progress, OnATerminalOneLineIsRedrawnAFewTimesASecond) {
   }
   // An error message that follows stands on its own line.
   EXPECT_EQ(w.text.str().back(), '\n');
+}
+
+TEST(Progress, ALineIsCutToTheWidthOfTheTerminal) {
+  Watched w;
+  w.columns = 20;
+  Progress progress("Fläche", 1.0, 0.0, w.sink(true));
+  w.clock = 10;
+  progress.update(0.5, "a note that does not fit");
+  EXPECT_EQ(w.text.str(), "\r\033[KFläche  50 %  10 s ") << "19 characters, one for the cursor";
 }
 
 TEST(Progress, ElsewherePlainLinesComeEveryFewSecondsAndThenLessOften) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <mpi.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -39,6 +41,26 @@ class TemporaryFolder {
 inline void write_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
+
+/// Files of this process can grow to so many bytes only while this lives: what a full disk looks like to a
+/// writer.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    former_handler = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &former);
+    const rlimit limit{bytes, former.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &former);
+    std::signal(SIGXFSZ, former_handler);
+  }
+
+ private:
+  rlimit former{};
+  void (*former_handler)(int);
+};
 
 /// The message of the exception of type E that `action` throws; fails the test if it throws none.
 template <class E, class Action>

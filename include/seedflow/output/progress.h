@@ -23,6 +23,8 @@ class Progress {
     std::ostream* stream = nullptr;
     bool terminal = false;
     std::function<double()> clock = nullptr;
+    std::function<int()> columns =
+        nullptr;  ///< width of the terminal in characters; longer lines are cut off
   };
   Progress(const std::string& label, double end, double start, Sink sink);
 
