@@ -185,8 +185,15 @@ int CommandLine::execute(const std::vector<std::string>& arguments, std::ostream
   if (is_parameter_file(arguments[0])) return run(*this, arguments, out);
   for (const Command& command : commands())
     if (command.name == arguments[0]) return command.execute(*this, rest, out);
+  std::vector<std::string> names = names_of(commands());
+  for (const char* name : {"test", "build"}) {
+    if (arguments[0] == name)
+      throw InputError("\"" + arguments[0] + "\" is a command of the launcher: ./seedflow " + arguments[0] +
+                       ".");
+    names.emplace_back(name);
+  }
   throw InputError("command \"" + arguments[0] + "\" is not known. " +
-                   suggestion(arguments[0], names_of(commands()), "command"));
+                   suggestion(arguments[0], names, "command"));
 }
 
 }  // namespace seedflow

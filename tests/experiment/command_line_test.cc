@@ -100,6 +100,8 @@ TEST_F(CommandLineTest, UnknownExperiment) {
 
 TEST_F(CommandLineTest, UnknownCommandAndOption) {
   EXPECT_EQ(message({"rum"}), "command \"rum\" is not known. Nearest valid command: \"run\".");
+  EXPECT_EQ(message({"tset"}), "command \"tset\" is not known. Nearest valid command: \"test\".");
+  EXPECT_EQ(message({"test"}), "\"test\" is a command of the launcher: ./seedflow test.");
   EXPECT_EQ(message({"run", "note.prm", "--ouput", "x"}),
             "option --ouput is not known. Nearest valid option: \"--output\".");
   EXPECT_EQ(message({"run"}), "run needs a parameter file, as in: run prm/settling.prm.");
