@@ -173,8 +173,11 @@ void write_template(std::ostream& out, const SeedTemplate& seed) {
   if (seed.name.find_first_of("\r\n") != std::string::npos || seed.name != trimmed(seed.name))
     throw InputError("Seed template '" + seed.name +
                      "': a name must be one line without blanks at its ends.");
-  out << "# seedflow seed template; SI units; the rows are explained in doc/templates.md\n";
+  out << "# seedflow seed template; SI units\n";
   out << "name," << seed.name << '\n';
+  out << "# of the real seed: volume [m3], density [kg/m3], semi-axes [m], centre [m] and frame (unit "
+         "quaternion w, x, y, "
+         "z: the shape's axes -> the axes of this file)\n";
   write_row(out, "volume", {seed.seed_volume});
   write_row(out, "density", {seed.seed_density});
   write_row(out, "semi-axes", {seed.seed_semi_axes.x, seed.seed_semi_axes.y, seed.seed_semi_axes.z});

@@ -19,7 +19,7 @@ void SeedTemplateParameters::declare(Parameters& parameters) {
       "Outer shape of the real seed. sphere: a ball of Diameter. ellipsoid: an ellipsoid with the volume "
       "of that ball and the given Sphericity. stl: a closed surface read from File, scaled to the volume "
       "of that ball (an STL file has no unit). csv: a finished template read from File, which then "
-      "states all of it; the other entries of this section are not used.");
+      "states all of it: nothing else may then be set here.");
   parameters.number(
       "Diameter", diameter, "m", Range::positive(),
       "Diameter of the sphere with the volume of the real seed. The paper's seed: 4.0 +- 0.1 mm.");
@@ -30,7 +30,7 @@ void SeedTemplateParameters::declare(Parameters& parameters) {
       "How the sphericity was measured. axes: (a b c)^(1/3) / a with the three semi-axes, a the longest "
       "(Mohsenin's degree of sphericity, read off with a caliper, the habit with seeds). surface: surface "
       "of the sphere of equal volume over the seed's surface (Wadell). The paper does not say which; "
-      "0.976 means a seed 3.7 % longer than thick by axes, 46 % longer by surface (prolate).");
+      "0.976 means a seed 3.7 % longer than thick by axes, 47 % longer by surface (prolate).");
   parameters.choice("Ellipsoid kind", ellipsoid_kind, {"prolate", "oblate"},
                     "prolate: two equal short axes (a grain). oblate: two equal long axes (a lentil).");
   parameters.number(
@@ -60,7 +60,7 @@ void SeedTemplateParameters::declare(Parameters& parameters) {
   parameters.flag(
       "Equal mean caliper", equal_caliper,
       "Enlarge the clump until its mean caliper (width averaged over all directions) is the real seed's. "
-      "Otherwise a coarse clump is a smaller seed: 3.84 mm for N = 36 instead of 4 mm, and falls through "
+      "Otherwise a coarse clump is a smaller seed: 3.89 mm for N = 36 instead of 4 mm, and falls through "
       "holes more easily for that reason alone.");
   parameters.flag(
       "Real inertia", real_inertia,
@@ -68,7 +68,37 @@ void SeedTemplateParameters::declare(Parameters& parameters) {
       "inertia are those of the real homogeneous seed. Otherwise all sub-spheres have one density (Eq. 9).");
   parameters.integer("Random number", random_number, {0.0, 2147483647.0, false},
                      "Start of the random packing. The same number gives the same template, bit by bit.");
-  parameters.text("File", file, "The STL surface or the CSV template, for those two shapes.");
+  parameters.file("File", file, "The STL surface or the CSV template, for those two shapes.");
+}
+
+void SeedTemplateParameters::check(const Parameters& parameters, const std::string& section,
+                                   const SeedTemplateParameters& defaults) const {
+  const bool from_file = shape == "stl" || shape == "csv";
+  if (from_file && file.empty())
+    parameters.reject(section + "/File", "Shape = " + shape + " is read from a file, but none is given",
+                      "set File to the name of the " + shape + " file");
+  const auto unused = [&](const char* entry, const auto& value, const auto& declared) {
+    if (value != declared)
+      parameters.reject(section + "/" + entry, "it has no effect with Shape = " + shape,
+                        "remove it, or choose another Shape");
+  };
+  if (!from_file) unused("File", file, defaults.file);
+  if (shape != "ellipsoid") {
+    unused("Sphericity", sphericity, defaults.sphericity);
+    unused("Sphericity kind", sphericity_kind, defaults.sphericity_kind);
+    unused("Ellipsoid kind", ellipsoid_kind, defaults.ellipsoid_kind);
+  }
+  if (shape != "csv") return;
+  unused("Diameter", diameter, defaults.diameter);
+  unused("Density", density, defaults.density);
+  unused("Sub-spheres", n_spheres, defaults.n_spheres);
+  unused("Reading", reading, defaults.reading);
+  unused("Sub-sphere radius", sphere_radius, defaults.sphere_radius);
+  unused("Contact radius factor", contact_factor, defaults.contact_factor);
+  unused("Bond radius factor", bond_factor, defaults.bond_factor);
+  unused("Equal mean caliper", equal_caliper, defaults.equal_caliper);
+  unused("Real inertia", real_inertia, defaults.real_inertia);
+  unused("Random number", random_number, defaults.random_number);
 }
 
 namespace {

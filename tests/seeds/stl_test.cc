@@ -1,6 +1,7 @@
 #include "seedflow/seeds/stl.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
@@ -56,7 +57,7 @@ class File {
  public:
   explicit File(const std::string& content) { std::ofstream(name, std::ios::binary) << content; }
   ~File() { std::remove(name.c_str()); }
-  const std::string name = testing::TempDir() + "seedflow_stl_test.stl";
+  const std::string name = testing::TempDir() + "seedflow_stl_" + std::to_string(::getpid()) + ".stl";
 };
 
 std::string ascii(const TriangleSurface& s) {

@@ -1,10 +1,12 @@
 #include "seedflow/seeds/template_parameters.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <fstream>
 #include <map>
 #include <numeric>
 #include <string>
@@ -163,6 +165,60 @@ TEST(TemplateParameters, TheEllipsoidIsFoundAgainInTheTemplate) {
     const Vec3 in_shape = rotate_back(seed.seed_frame, x - seed.seed_centre);
     EXPECT_LE(shape.signed_distance(in_shape, outward), -seed.radius[0] * (1 - 1e-9));
   }
+}
+
+class TemplateParametersFile : public testing::Test {
+ protected:
+  void TearDown() override { std::remove(name.c_str()); }
+
+  SeedTemplateParameters read(const std::string& entries) {
+    Parameters parameters;
+    SeedTemplateParameters p;
+    {
+      const auto section = parameters.section("Seeds");
+      p.declare(parameters);
+    }
+    std::ofstream(name) << "subsection Seeds\n" << entries << "end\n";
+    parameters.read(name);
+    p.check(parameters, "Seeds", {});
+    std::ofstream written(name);  // the complete file of this run must be accepted, too
+    parameters.write(written);
+    written.close();
+    parameters.read(name);
+    p.check(parameters, "Seeds", {});
+    return p;
+  }
+  void expect_rejected(const std::string& entries, const std::string& reason) {
+    try {
+      read(entries);
+      ADD_FAILURE() << "accepted; expected: " << reason;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  }
+
+  const std::string name =
+      testing::TempDir() + "seedflow_template_parameters_" + std::to_string(::getpid()) + ".prm";
+};
+
+TEST_F(TemplateParametersFile, EntriesAreReadWithTheirUnits) {
+  EXPECT_EQ(read("").n_spheres, 70);
+  const SeedTemplateParameters p = read(
+      "set Shape = ellipsoid\nset Diameter = 3 mm\nset Sub-spheres = 36\nset Sphericity = 0.9\n"
+      "set Reading = diameter\nset Equal mean caliper = true\n");
+  EXPECT_EQ(p.shape, "ellipsoid");
+  EXPECT_DOUBLE_EQ(p.diameter, 3e-3);
+  EXPECT_EQ(p.n_spheres, 36);
+  EXPECT_EQ(p.sphericity, 0.9);
+  EXPECT_EQ(p.reading, "diameter");
+  EXPECT_TRUE(p.equal_caliper);
+}
+
+TEST_F(TemplateParametersFile, EntriesWithoutEffectAreRejected) {
+  expect_rejected("set Sphericity = 0.9\n", "no effect with Shape = sphere");
+  expect_rejected("set Shape = stl\n", "read from a file, but none is given");
+  expect_rejected("set Shape = csv\nset File = a.csv\nset Density = 1000\n", "no effect with Shape = csv");
+  expect_rejected("set Sub-spheres = 0\n", "Sub-spheres");
 }
 
 }  // namespace

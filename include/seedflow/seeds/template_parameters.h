@@ -25,9 +25,14 @@ struct SeedTemplateParameters {
   bool equal_caliper = false;      ///< enlarge the clump to the mean caliper of the real seed
   bool real_inertia = false;       ///< shift mass between sub-spheres to the real seed's inertia
   int random_number = 1;
-  std::string file;  ///< of shape stl or csv; relative names: see Parameters::resolve()
+  std::string file;  ///< of shape stl or csv
 
   void declare(Parameters& parameters);
+  /// After reading: rejects (InputError with file and line) entries of `section` ("Seeds", "Seeds/Pellet",
+  /// ...) that have no effect with this shape but differ from the `defaults` they were declared with, and a
+  /// shape from a file without the file.
+  void check(const Parameters& parameters, const std::string& section,
+             const SeedTemplateParameters& defaults) const;
 };
 
 /// The shape these parameters describe. Errors: InputError (an STL that is unreadable or not closed, ...).
