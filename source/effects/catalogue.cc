@@ -109,18 +109,29 @@ const Effect& EffectSet::operator[](const std::string& name) const {
   return find(effects, name);
 }
 
-std::vector<std::string> EffectSet::idle() const {
+std::vector<double> EffectSet::activity() const {
+  std::vector<double> numbers;
+  for (const auto& effect : effects) {
+    const EffectActivity& a = effect.activity();
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(a.evaluations), static_cast<double>(a.in_range), a.force, a.torque});
+  }
+  return numbers;
+}
+
+std::vector<std::string> EffectSet::idle(const std::vector<double>& activity) const {
   std::vector<std::string> names;
-  for (const auto& effect : effects)
-    if (effect.settings().strength > 0 && effect.activity().evaluations > 0 && !effect.activity().acted())
-      names.push_back(effect.record().name);
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    if (effects[i].settings().strength > 0 && activity[4 * i] > 0 && activity[4 * i + 2] == 0 &&
+        activity[4 * i + 3] == 0)
+      names.push_back(effects[i].record().name);
   return names;
 }
 
-std::vector<std::string> EffectSet::out_of_range() const {
+std::vector<std::string> EffectSet::out_of_range(const std::vector<double>& activity) const {
   std::vector<std::string> names;
-  for (const auto& effect : effects)
-    if (effect.activity().in_range < effect.activity().evaluations) names.push_back(effect.record().name);
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    if (activity[4 * i + 1] < activity[4 * i]) names.push_back(effects[i].record().name);
   return names;
 }
 

@@ -51,8 +51,7 @@ EffectDefinition hindered_settling() {
                 {"Di Felice", "Richardson-Zaki"},
                 "Voidage function of the drag, or the settling law turned into a drag factor."}};
   r.references = {"Richardson & Zaki (1954), Trans. Inst. Chem. Eng. 32, 35-53",
-                  "Rowe (1987), Chem. Eng. Sci. 42, 2795-2796, doi:10.1016/0009-2509(87)87035-5",
-                  drag_law("Di Felice").reference};
+                  "Rowe (1987), Chem. Eng. Sci. 42, 2795-2796", drag_law("Di Felice").reference};
   r.validity = "suspensions and beds of like bodies, void fraction 0.4 to 1";
   r.in_range = [](const FlowAtBody& flow) { return flow.void_fraction >= 0.4; };
   r.signature =

@@ -11,6 +11,9 @@ namespace {
 constexpr int header = 6;
 
 void remember(const FlowAtBody& flow, EffectMemory& memory, double resolution) {
+  if (!(flow.time_step > 0))
+    throw RunError("Effect 'History force': the time step is " + std::to_string(flow.time_step) +
+                   " s. Remedy: whoever moves the bodies must tell the step about to be taken.");
   const bool fresh = memory.empty();
   if (fresh) memory.assign(header, 0.0);
   ThinnedHistory record(memory, header, 3);
@@ -59,7 +62,7 @@ EffectDefinition history_force() {
   r.references = {
       "Basset (1888), A Treatise on Hydrodynamics, vol. 2",
       "Mei & Adrian (1992), J. Fluid Mech. 237, 323-341, doi:10.1017/S0022112092003434",
-      "Dorgan & Loth (2007), Int. J. Multiphase Flow 33, 833-848, doi:10.1016/j.ijmultiphaseflow.2007.02.006",
+      "Dorgan & Loth (2007), Int. J. Multiphase Flow 33, 833-848, doi:10.1016/j.ijmultiphaseflow.2007.02.005",
       "van Hinsberg, ten Thije Boonkkamp & Clercx (2011), J. Comput. Phys. 230, 1465-1478, "
       "doi:10.1016/j.jcp.2010.11.014 (the need for bounded memory)"};
   r.validity =

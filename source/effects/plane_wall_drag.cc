@@ -50,7 +50,7 @@ EffectDefinition plane_wall_drag() {
                 "s is not taken smaller than this: the roughness of the surfaces, in radii."}};
   r.references = {
       "Brenner (1961), Chem. Eng. Sci. 16, 242-251, doi:10.1016/0009-2509(61)80035-3",
-      "Cox & Brenner (1967), Chem. Eng. Sci. 22, 1753-1777, doi:10.1016/0009-2509(67)80208-2",
+      "Cox & Brenner (1967), Chem. Eng. Sci. 22, 1753-1777",
       "Goldman, Cox & Brenner (1967), Chem. Eng. Sci. 22, 637-651, doi:10.1016/0009-2509(67)80047-2"};
   r.validity =
       "one plane wall, Re << 1 (used as a first estimate up to Re = 1), wall and fluid at rest far away";

@@ -13,9 +13,8 @@ EffectDefinition rotational_drag() {
       "T = pi mu d^3 W for Re_W <= 32, T = rho/64 d^5 (12.9/sqrt(Re_W) + 128.4/Re_W) |W| W above; W = curl "
       "u/2 - "
       "omega_body, Re_W = rho d^2 |W|/mu";
-  r.references = {
-      "Rubinow & Keller (1961), J. Fluid Mech. 11, 447-459, doi:10.1017/S0022112061000640",
-      "Dennis, Singh & Ingham (1980), J. Fluid Mech. 101, 257-279, doi:10.1017/S0022112080001656"};
+  r.references = {"Rubinow & Keller (1961), J. Fluid Mech. 11, 447-459, doi:10.1017/S0022112061000640",
+                  "Dennis, Singh & Ingham (1980), J. Fluid Mech. 101, 257-279"};
   r.validity = "lone sphere, Re_W < 1000";
   r.in_range = [](const FlowAtBody& flow) {
     const Vec3 spin = 0.5 * flow.flow_vorticity - flow.angular_velocity;

@@ -51,7 +51,7 @@ EffectDefinition tube_wall_drag() {
                 "Di Felice",
                 {"Di Felice", "Faxen", "Haberman"},
                 "Di Felice for any Reynolds number; Faxen and Haberman for Stokes flow."}};
-  r.references = {"Di Felice (1996), Int. J. Multiphase Flow 22, 527-533, doi:10.1016/0301-9322(96)00004-3",
+  r.references = {"Di Felice (1996), Int. J. Multiphase Flow 22, 527-533",
                   "Faxen (1923), Ark. Mat. Astron. Fys. 17(27), 1-28",
                   "Haberman & Sayre (1958), David Taylor Model Basin Report 1143"};
   r.validity = "on the axis of a long tube, d/D < 0.9 (Faxen 0.3, Haberman 0.8 and Re < 1), fully developed";

@@ -219,6 +219,8 @@ TEST(Catalogue, TrialEvaluationsLeaveTheMemoryAlone) {
   FlowAtBody back = busy_state();
   BodyForce force;
   EXPECT_THROW(once.add(back, force), RunError);  // time went back
+  back.time = 1, back.time_step = 0;
+  EXPECT_THROW(once.add(back, force), RunError);
 }
 
 }  // namespace

@@ -37,10 +37,16 @@ class EffectSet {
   std::vector<Effect>& all() { return effects; }
   const std::vector<Effect>& all() const { return effects; }
 
-  /// Names of effects with strength > 0 that were evaluated and added nothing at all.
-  std::vector<std::string> idle() const;
-  /// Names of effects with strength > 0 that were ever evaluated outside their range of validity.
-  std::vector<std::string> out_of_range() const;
+  /// What every effect did, as numbers that can be summed over ranks: per effect evaluations, in range,
+  /// force, torque.
+  std::vector<double> activity() const;
+  /// Names of effects with strength > 0 that were evaluated and added nothing at all, by the numbers of
+  /// activity().
+  std::vector<std::string> idle(const std::vector<double>& activity) const;
+  std::vector<std::string> idle() const { return idle(activity()); }
+  /// Names of effects that were ever evaluated outside their range of validity.
+  std::vector<std::string> out_of_range(const std::vector<double>& activity) const;
+  std::vector<std::string> out_of_range() const { return out_of_range(activity()); }
 
   void forget(std::int64_t body);
   /// All memories of one body, to be sent to another rank.

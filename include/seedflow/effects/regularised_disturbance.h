@@ -21,7 +21,7 @@ namespace seedflow {
 //
 // Published relatives: Maxey & Patel (2001), Int. J. Multiphase Flow 27, 1603-1626 (Stokes flow, Gaussian
 // force); Horwitz & Mani (2016), J. Comput. Phys. 318, 85-109, doi:10.1016/j.jcp.2016.05.034; Evrard, Denner
-// & van Wachem (2020), J. Comput. Phys. X 8, 100078, doi:10.1016/j.jcpx.2020.100078 (regularised Stokeslets,
+// & van Wachem (2020), J. Comput. Phys. X 8, 100078 (regularised Stokeslets,
 // finite Re).
 
 /// s [m] for a force spread with width a and a velocity averaged with width b (standard deviations, m).
