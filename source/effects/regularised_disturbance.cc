@@ -15,8 +15,10 @@ const double mobility_scale = std::sqrt(M_PI / 2) / (2 * M_PI * M_PI);
 /// exp(x^2) erfc(x), x >= 0.
 double scaled_erfc(double x) {
   if (x < 5) return std::exp(x * x) * std::erfc(x);
-  double fraction = x;  // continued fraction, 1/sqrt(pi) / (x + (1/2)/(x + (2/2)/(x + (3/2)/...)))
-  for (int n = 40; n >= 1; --n) fraction = x + 0.5 * n / fraction;
+  // Continued fraction 1/sqrt(pi) / (x + (1/2)/(x + (2/2)/(x + (3/2)/...))); the farther out, the fewer
+  // terms.
+  double fraction = x;
+  for (int n = static_cast<int>(200 / (x * x)) + 8; n >= 1; --n) fraction = x + 0.5 * n / fraction;
   return 1 / (sqrt_pi * fraction);
 }
 
@@ -50,11 +52,16 @@ SelfMobility steady_self_mobility(double reynolds) {
   const double x = reynolds / std::sqrt(2.0);
   double s = 0, h = 0;
   if (x < 0.5) {
-    // erfc(x) exp(x^2) = sum (-x)^n / Gamma(n/2 + 1), inserted term by term
-    double power = 1;
-    for (int m = 0; m < 30; ++m, power *= -x) {
-      s += power / std::tgamma(0.5 * m + 2.5);
-      h += power / std::tgamma(0.5 * m + 1.5);
+    // erfc(x) exp(x^2) = sum (-x)^n / Gamma(n/2 + 1), inserted term by term; at x = 0.5 the 23rd term is
+    // below 1e-16.
+    static const auto inverse_gamma = [] {
+      std::array<double, 24> list;
+      for (int m = 0; m < 24; ++m) list[m] = 1 / std::tgamma(0.5 * m + 1.5);
+      return list;
+    }();
+    for (int m = 21; m >= 0; --m) {
+      s = inverse_gamma[m + 2] - x * s;
+      h = inverse_gamma[m] - x * h;
     }
     s *= 0.5 * sqrt_pi, h *= 0.5 * sqrt_pi;
   } else {
@@ -162,11 +169,25 @@ Vec3 undisturbed_slip(const Vec3& measured, const std::function<double(double)>&
     low = high, high *= 2;
     if (high > 1e6 * target) throw no_answer();
   }
-  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
-    const double middle = 0.5 * (low + high);
-    (seen(middle) < target ? low : high) = middle;
+  // False position; the value at an end that stays for a second time is halved (Illinois), so both ends close
+  // in.
+  double below = seen(low) - target, above = seen(high) - target, slip = high;
+  int side = 0;
+  for (int i = 0; i < 100 && above > 0; ++i) {
+    slip = high - above * (high - low) / (above - below);
+    const double excess = seen(slip) - target;
+    if (std::abs(excess) <= 1e-14 * target || high - low <= 1e-15 * high) break;
+    if (excess < 0) {
+      low = slip, below = excess;
+      if (side < 0) above *= 0.5;
+      side = -1;
+    } else {
+      high = slip, above = excess;
+      if (side > 0) below *= 0.5;
+      side = 1;
+    }
   }
-  return (0.5 * (low + high) / target) * measured;
+  return (slip / target) * measured;
 }
 
 }  // namespace seedflow
