@@ -176,7 +176,17 @@ TEST(LinePlot, ReferenceLabelsNeverMeetEvenWhenTheirLinesDo) {
   for (int i = 0; i < 6; ++i)
     plot.vertical.push_back({1.7 + 0.05 * i, "event with a long name " + std::to_string(i)});
   for (int i = 0; i < 9; ++i) plot.series.push_back({"another series " + std::to_string(i), {0, 1}, {1, 2}});
-  expect_no_overlap(drawing_of(plot.svg()));
+  const auto elements = drawing_of(plot.svg());
+  expect_no_overlap(elements);
+  // The samples of the legend stand in the 40 px before their words and meet no words either.
+  const auto boxes = text_boxes(elements);
+  for (const Box& sample : boxes) {
+    if (sample.words.rfind("another series", 0) != 0) continue;
+    for (const Box& words : boxes) {
+      const bool beside = words.right <= sample.left - 40 || words.left >= sample.left;
+      EXPECT_TRUE(beside || words.bottom <= sample.top || words.top >= sample.bottom) << words.words;
+    }
+  }
 }
 
 TEST(LinePlot, AReferenceOutsideFixedBoundsIsSaidNotDrawn) {
