@@ -30,7 +30,8 @@ void Bonds::add_total(const SphereLanes* spheres, ForceLanes* forces, int b, dou
       for (int line = 0; line < lines && ahead < end; ++line, ahead += 64) __builtin_prefetch(ahead, 1, 2);
       const LaneQuaternion qj = sj.orientation;
       const LaneVec3 half{broadcast(c.half[0]), broadcast(c.half[1]), broadcast(c.half[2])};
-      const LaneVec3 ai = rotate(qi, half), aj = rotate(qj, half);
+      const LaneVec3 both = 2.0 * half;
+      const LaneVec3 ai = rotate_half(qi, half, both), aj = rotate_half(qj, half, both);
       const LaneVec3 e = ai + aj;
       const LaneVec3 g = sj.position - xi - e;
       const Lanes ge = dot(g, e);

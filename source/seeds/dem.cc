@@ -90,7 +90,11 @@ void Dem::end_impulses(double duration) {
 }
 
 void Dem::refresh_addresses() {
-  if (static_cast<int>(address.size()) == n_spheres()) return;
+  // A copy of a Dem brings along the addresses of the original: they are told by the first.
+  int lane = 0;
+  const bool valid = static_cast<int>(address.size()) == n_spheres() &&
+                     (address.empty() || address.front().lanes == &lanes_of(0, 0, lane));
+  if (valid) return;
   address.clear();
   for (int seed = 0; seed < n_seeds(); ++seed) {
     SeedStore& s = store[slots[seed].store];
@@ -160,8 +164,8 @@ void Dem::advance(double duration) {
   if (!(duration > 0)) return;
   const long n = std::max(1L, std::lround(std::ceil(duration / parameters.time_step * (1 - 1e-12))));
   const double step = duration / n;
+  refresh_addresses();
   if (!forces_known) {
-    refresh_addresses();
     for (SeedStore& s : store) std::fill(s.force.begin(), s.force.end(), ForceLanes{});
     contacts.forget();
     sum_contacts(0);
@@ -186,20 +190,33 @@ void Dem::advance(double duration) {
 }
 
 void Dem::check_state() const {
-  for (int seed = 0; seed < n_seeds(); ++seed) {
-    const SeedState s = seed_state(seed);
-    const Vec3& x = s.centre;
-    std::ostringstream where;
-    where << "seed " << seed << " ('" << seed_template(seed).name << "') at (" << x.x << ", " << x.y << ", "
-          << x.z << ") m, t = " << now << " s";
-    if (!std::isfinite(x.x + x.y + x.z + s.velocity.x + s.velocity.y + s.velocity.z))
-      throw RunError("The motion of the seeds failed: not a number in " + where.str() +
-                     ". Reduce the time step or look at the forces on this seed.");
-    if (bounded &&
-        (x.x < low.x || x.y < low.y || x.z < low.z || x.x > high.x || x.y > high.y || x.z > high.z))
-      throw RunError("A seed left the domain: " + where.str() +
-                     ". Close the domain with walls, enlarge it, or end the run earlier.");
-  }
+  for (const SeedStore& s : store)
+    for (int b = 0; b < s.n_blocks(); ++b) {
+      LaneVec3 centre, speed;
+      for (int i = 0; i < s.n_spheres(); ++i) {
+        const double share = s.model.sphere_mass[i] / s.model.mass;
+        centre += share * s.block(b)[i].position;
+        speed += share * s.block(b)[i].velocity;
+      }
+      for (int lane = 0; lane < lane_width; ++lane)
+        if (s.occupied[b][lane] != 0.0)
+          check_seed(s, b * lane_width + lane, centre.get(lane), speed.get(lane));
+    }
+}
+
+void Dem::check_seed(const SeedStore& s, int slot, const Vec3& x, const Vec3& v) const {
+  const bool number = std::isfinite(x.x + x.y + x.z + v.x + v.y + v.z);
+  const bool inside = !bounded || (x.x >= low.x && x.y >= low.y && x.z >= low.z && x.x <= high.x &&
+                                   x.y <= high.y && x.z <= high.z);
+  if (number && inside) return;
+  std::ostringstream where;
+  where << "seed " << s.seed[slot] << " ('" << s.model.name << "') at (" << x.x << ", " << x.y << ", " << x.z
+        << ") m, t = " << now << " s";
+  if (!number)
+    throw RunError("The motion of the seeds failed: not a number in " + where.str() +
+                   ". Reduce the time step or look at the forces on this seed.");
+  throw RunError("A seed left the domain: " + where.str() +
+                 ". Close the domain with walls, enlarge it, or end the run earlier.");
 }
 
 }  // namespace seedflow

@@ -62,6 +62,25 @@ TEST(DemCheckpoint, ContinuesToTheLastBit) {
   }
 }
 
+// A Dem is a value: a copy goes its own way and neither disturbs the other.
+TEST(DemCheckpoint, CopiesAreIndependent) {
+  Dem one = crowd("total");
+  one.advance(2e-3);
+  Dem copy = one;
+  Dem reference = crowd("total");
+  reference.advance(2e-3);
+  copy.advance(1e-3);
+  one.advance(1e-3);
+  reference.advance(1e-3);
+  std::vector<Vec3> a, b, c;
+  one.velocities(a), copy.velocities(b), reference.velocities(c);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_EQ(a[i][k], c[i][k]);
+      ASSERT_EQ(b[i][k], c[i][k]);
+    }
+}
+
 TEST(DemCheckpoint, DamagedOrForeignStateIsRefused) {
   Dem dem = crowd("total");
   dem.advance(1e-5);

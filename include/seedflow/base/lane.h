@@ -21,7 +21,9 @@ typedef long long LaneMask
 #define SEEDFLOW_INLINE inline __attribute__((always_inline))
 
 SEEDFLOW_INLINE Lanes broadcast(double a) {
-  return Lanes{} + a;
+  Lanes r;
+  for (int i = 0; i < lane_width; ++i) r[i] = a;
+  return r;
 }
 
 /// mask ? a : b in each lane.

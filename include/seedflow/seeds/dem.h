@@ -148,6 +148,7 @@ class Dem {
   void begin_impulses(double step);
   void end_impulses(double duration);
   void check_state() const;
+  void check_seed(const SeedStore& s, int slot, const Vec3& centre, const Vec3& velocity) const;
   void relax_factors(double step);
 
   DemParameters parameters;
