@@ -58,6 +58,7 @@ SurfaceRoughness surface_roughness(const SeedTemplate& seed, const Shape& shape,
   }
   result.bs /= std::cbrt(6 * shape.volume / M_PI);
 
+  const double layer = 2 * *std::max_element(seed.radius.begin(), seed.radius.end());
   std::vector<double> depth;
   for (const Vec3& n : even_directions(n_directions)) {
     double reach = -1;
@@ -66,8 +67,10 @@ SurfaceRoughness surface_roughness(const SeedTemplate& seed, const Shape& shape,
       const double half_chord = seed.radius[i] * seed.radius[i] - norm_square(centre[i] - along * n);
       if (half_chord > 0) reach = std::max(reach, along + std::sqrt(half_chord));
     }
+    if (reach <= 0) continue;
     Vec3 outward;
-    if (reach > 0) depth.push_back(-shape.signed_distance(reach * n, outward));
+    const double below = -shape.signed_distance(reach * n, outward);
+    if (below <= layer) depth.push_back(below);
   }
   if (depth.empty()) return result;
   result.covered = static_cast<double>(depth.size()) / n_directions;

@@ -71,5 +71,15 @@ TEST(Caliper, CoveredShare) {
   EXPECT_NEAR(rough.covered, 1 - std::sqrt(1 - 1.0 / 9), 2e-3);
 }
 
+TEST(Caliper, TheInsideSeenThroughGapsIsNotTheSurface) {
+  SeedTemplate seed = dumbbell(3, 0.5);
+  const SurfaceRoughness hollow = surface_roughness(seed, sphere_shape(4));
+  seed.position.push_back({});  // surrounds the centre, 1.5 below the surface
+  seed.radius.push_back(0.5);
+  const SurfaceRoughness filled = surface_roughness(seed, sphere_shape(4));
+  EXPECT_EQ(filled.covered, hollow.covered);
+  EXPECT_EQ(filled.mean_depth, hollow.mean_depth);
+}
+
 }  // namespace
 }  // namespace seedflow

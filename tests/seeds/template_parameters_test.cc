@@ -29,7 +29,7 @@ double largest_overlap(const SeedTemplate& seed) {
 TEST(TemplateParameters, PaperModelsInTheRadiusReading) {
   const double real_mass = 1340 * M_PI / 6 * 64e-9;
   EXPECT_NEAR(real_mass, 4.490e-5, 5e-9);
-  double last_caliper = 0;
+  double last_caliper = 0, last_rms = 1;
   for (const PaperModel& model : paper_models) {
     SeedTemplateParameters p;
     p.n_spheres = model.n_spheres;
@@ -53,8 +53,12 @@ TEST(TemplateParameters, PaperModelsInTheRadiusReading) {
     EXPECT_LT(width, 4e-3);
     EXPECT_GT(width, last_caliper);
     last_caliper = width;
+    EXPECT_LT(rough.rms, last_rms) << "finer sub-spheres make a smoother seed";
+    last_rms = rough.rms;
     EXPECT_NEAR(rough.bs / model.roughness, 2, 1e-12) << "printed as diameter, read as radius";
-    EXPECT_GT(rough.covered, 0.97) << "few rays from the centre find a gap";
+    // Discs that touch cover 0.82 (random, Berryman 1983) to 0.907 (hexagonal) of a plane, overlap and
+    // spheres seen through the gaps somewhat more.
+    EXPECT_GT(rough.covered, 0.82);
     // Eq. 9.
     EXPECT_NEAR(seed.mass / real_mass, 1, 1e-14);
     EXPECT_NEAR(std::accumulate(seed.sphere_mass.begin(), seed.sphere_mass.end(), 0.0) / real_mass, 1, 1e-14);

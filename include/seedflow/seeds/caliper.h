@@ -19,7 +19,8 @@ Caliper caliper(const Shape& shape, int n_directions = 2000);
 
 /// How rough the clump is compared with the real seed. Rays leave the seed's centre in all directions; where
 /// one last leaves a sub-sphere, the depth below the real seed's surface is measured (on a sphere D/2 minus
-/// the clump's radius in that direction). Directions in which the ray meets no sub-sphere are not covered.
+/// the clump's radius in that direction). Directions in which the ray finds nothing, or only something deeper
+/// than the largest sub-sphere's diameter (it looks through a gap into the inside), are not covered.
 struct SurfaceRoughness {
   double bs = 0;          ///< the paper's surface roughness BS: sub-sphere diameter / seed diameter [1]
   double mean_depth = 0;  ///< over the covered directions [m]
