@@ -6,17 +6,41 @@
 #include "seedflow/seeds/bonds.h"
 
 namespace seedflow {
+namespace {
+
+// Calls the next block into the second-level cache, a few lines with every bond, so that the arithmetic hides
+// it.
+class CacheLines {
+ public:
+  CacheLines(const NextBlock& next, int n_spheres, int n_bonds)
+      : present(reinterpret_cast<const char*>(next.spheres)),
+        end(present),
+        other(reinterpret_cast<const char*>(next.forces)) {
+    if (next.spheres) end += n_spheres * sizeof(SphereLanes);
+    if (next.forces) other_size = n_spheres * sizeof(ForceLanes);
+    per_bond = static_cast<int>((end - present + other_size) / 64 / std::max(1, n_bonds)) + 1;
+  }
+  SEEDFLOW_INLINE void call_some() {
+    for (int line = 0; line < per_bond && present < end; ++line, present += 64)
+      __builtin_prefetch(present, 1, 2);
+    if (present >= end && other_size > 0) present = other, end = other + other_size, other_size = 0;
+  }
+
+ private:
+  const char *present, *end, *other;
+  std::size_t other_size = 0;
+  int per_bond;
+};
+
+}  // namespace
 
 template <bool breaking, bool damping>
 void Bonds::add_total(const SphereLanes* spheres, ForceLanes* forces, int b, double step,
-                      const SphereLanes* next) {
+                      const NextBlock& next) {
   Lanes lost = {};
   const int n = n_bonds();
   Lanes* whole = breaking ? &intact[static_cast<std::size_t>(b) * n] : nullptr;
-  const std::size_t block_bytes = next ? n_spheres * sizeof(SphereLanes) : 0;
-  const char* ahead = reinterpret_cast<const char*>(next);
-  const char* const end = ahead + block_bytes;
-  const int lines = static_cast<int>(block_bytes / 64 / std::max(1, n)) + 1;
+  CacheLines ahead(next, n_spheres, n);
   for (int k = 0; k < n;) {
     const int i = constants[k].first;
     const SphereLanes& si = spheres[i];
@@ -27,7 +51,7 @@ void Bonds::add_total(const SphereLanes* spheres, ForceLanes* forces, int b, dou
       const Constants& c = constants[k];
       const SphereLanes& sj = spheres[c.second];
       ForceLanes& fj = forces[c.second];
-      for (int line = 0; line < lines && ahead < end; ++line, ahead += 64) __builtin_prefetch(ahead, 1, 2);
+      ahead.call_some();
       const LaneQuaternion qj = sj.orientation;
       const LaneVec3 half{broadcast(c.half[0]), broadcast(c.half[1]), broadcast(c.half[2])};
       const LaneVec3 both = 2.0 * half;
@@ -89,7 +113,7 @@ void Bonds::add_total(const SphereLanes* spheres, ForceLanes* forces, int b, dou
 }
 
 void Bonds::add_forces(const SphereLanes* spheres, ForceLanes* forces, int b, double step,
-                       const SphereLanes* next) {
+                       const NextBlock& next) {
   const bool breaking = !intact.empty(), damping = parameters.damping_ratio > 0;
   if (!history.empty())
     add_incremental(spheres, forces, b, step);

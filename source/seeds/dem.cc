@@ -148,9 +148,14 @@ void Dem::move(double bond_step, const MotionStep& motion) {
       } else {
         ForceLanes* const forces = own ? s.forces(b) : scratch.data();
         // Bonds and motion of a block follow each other while the block is in the cache.
-        if (bond_step > 0)
-          bonds[t].add_forces(s.block(b), forces, b, bond_step,
-                              b + 1 < s.n_blocks() ? s.block(b + 1) : nullptr);
+        if (bond_step > 0) {
+          NextBlock next;
+          if (b + 1 < s.n_blocks()) {
+            next.spheres = s.block(b + 1);
+            if (s.in_contact[b + 1]) next.forces = s.forces(b + 1);
+          }
+          bonds[t].add_forces(s.block(b), forces, b, bond_step, next);
+        }
         fastest = std::max(fastest, move_bonded(s, b, forces, motion));
       }
       s.in_contact[b] = 0;

@@ -10,6 +10,12 @@ namespace seedflow {
 
 class Parameters;
 
+/// Memory that is needed after the present block: its spheres and, if it has its own, its forces.
+struct NextBlock {
+  const SphereLanes* spheres = nullptr;
+  const ForceLanes* forces = nullptr;
+};
+
 /// Parallel bonds between the sub-spheres of a seed (Potyondy & Cundall 2004; the source paper's Eqs. 1-2,
 /// Table 4).
 struct BondParameters {
@@ -51,10 +57,9 @@ class Bonds {
   void add_block();
 
   /// Adds the forces and torques of all bonds of block b of the spheres to `forces`. `step` [s] is the time
-  /// since the last call (incremental form, damping). `next`: the spheres of the block that comes next or
-  /// none; they are called into the cache meanwhile.
+  /// since the last call (incremental form, damping). What comes `next` is called into the cache meanwhile.
   void add_forces(const SphereLanes* spheres, ForceLanes* forces, int b, double step,
-                  const SphereLanes* next = nullptr);
+                  const NextBlock& next = {});
 
   /// Elastic energy of each lane [J].
   Lanes energy(const SphereLanes* spheres, int b) const;
@@ -97,7 +102,7 @@ class Bonds {
   };
 
   template <bool breaking, bool damping>
-  void add_total(const SphereLanes* spheres, ForceLanes* forces, int b, double step, const SphereLanes* next);
+  void add_total(const SphereLanes* spheres, ForceLanes* forces, int b, double step, const NextBlock& next);
   void add_incremental(const SphereLanes* spheres, ForceLanes* forces, int b, double step);
 
   BondParameters parameters;
