@@ -54,7 +54,7 @@ void project_pressure_gradient(const NodalSpace<dim, degree>& space, const StepC
 
 template <int dim, int degree>
 void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficients& c, FlowFields<dim>& fields,
-                       SparseMatrix& matrix, std::array<NodalVector, dim>& rhs, NodalVector* mass_defect) {
+                       SparseMatrix& matrix, typename FlowFields<dim>::Components& rhs, NodalVector* mass_defect) {
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   const auto& shape = space.shape;
   const TimeScheme& time = c.time;
@@ -148,7 +148,7 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
   template void project_pressure_gradient(const NodalSpace<dim, degree>&, const StepCoefficients&,           \
                                           FlowFields<dim>&);                                                 \
   template void assemble_momentum(const NodalSpace<dim, degree>&, const StepCoefficients&, FlowFields<dim>&, \
-                                  SparseMatrix&, std::array<NodalVector, dim>&, NodalVector*);
+                                  SparseMatrix&, FlowFields<dim>::Components&, NodalVector*);
 SEEDFLOW_MOMENTUM(2, 1)
 SEEDFLOW_MOMENTUM(3, 1)
 SEEDFLOW_MOMENTUM(2, 2)

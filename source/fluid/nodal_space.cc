@@ -13,6 +13,19 @@ namespace seedflow {
 
 template <int dim, int degree>
 NodalSpace<dim, degree>::NodalSpace(const Domain<dim>& domain) : fe(degree), dofs(domain.triangulation()) {
+  rebuild(domain);
+}
+
+template <int dim, int degree>
+void NodalSpace<dim, degree>::rebuild(const Domain<dim>& domain) {
+  n_groups = n_free_groups = 0;
+  layout = {};
+  for (auto* v : {&node, &cell, &place, &position, &first_jacobian}) v->clear();
+  for (auto* v : {&used, &jacobian_stride}) v->clear();
+  constrained.clear();
+  jacobian.clear();
+  constrained_cells.clear();
+  lines.clear();
   number_nodes(domain);
   group_cells(domain);
   compute_geometry(domain);

@@ -72,8 +72,8 @@ Domain<dim>::Domain(const DomainParameters& p, MPI_Comm comm)
           comm, dealii::Triangulation<dim>::limit_level_difference_at_vertices)) {
   if (!p.mesh_file.empty()) {
     side_names = physical_names(p.mesh_file, dim);
-    dealii::Triangulation<dim> coarse;
-    dealii::GridIn<dim> reader(coarse);
+    const auto coarse = std::make_shared<dealii::Triangulation<dim>>();
+    dealii::GridIn<dim> reader(*coarse);
     std::ifstream in(p.mesh_file);
     try {
       reader.read_msh(in);
@@ -81,7 +81,7 @@ Domain<dim>::Domain(const DomainParameters& p, MPI_Comm comm)
       throw InputError("Mesh file \"" + p.mesh_file + "\" is not a mesh of " +
                        (dim == 2 ? "quadrilaterals" : "hexahedra") + " in Gmsh's ASCII format 2 or 4: " + e.what());
     }
-    mesh->copy_triangulation(coarse);
+    build_coarse = [coarse](Triangulation& m) { m.copy_triangulation(*coarse); };
   } else {
     std::vector<unsigned int> n;
     dealii::Point<dim> a, b;
@@ -99,37 +99,43 @@ Domain<dim>::Domain(const DomainParameters& p, MPI_Comm comm)
                          std::to_string(d) + " has " + std::to_string(a[d]) + " to " + std::to_string(b[d]) + " m.");
     }
     side_names = names_of_box<dim>();
-    dealii::GridGenerator::subdivided_hyper_rectangle(*mesh, n, a, b, true);
+    build_coarse = [=](Triangulation& m) { dealii::GridGenerator::subdivided_hyper_rectangle(m, n, a, b, true); };
   }
-  finish(p.periodic);
+  build_coarse(*mesh);
+  name_periodic_sides(p.periodic);
+  join_periodic_sides();
   if (p.refinements > 0) mesh->refine_global(p.refinements);
   require_cells_for_all_ranks();
 }
 
 template <int dim>
-Domain<dim>::Domain(const dealii::Triangulation<dim>& coarse,
+Domain<dim>::Domain(const dealii::Triangulation<dim>& given,
                     const std::map<dealii::types::boundary_id, std::string>& names,
                     const std::vector<std::string>& periodic, MPI_Comm comm)
     : mesh(std::make_unique<Triangulation>(comm, dealii::Triangulation<dim>::limit_level_difference_at_vertices)),
       side_names(names) {
-  mesh->copy_triangulation(coarse);
-  finish(periodic);
+  const auto coarse = std::make_shared<dealii::Triangulation<dim>>();
+  coarse->copy_triangulation(given);
+  build_coarse = [coarse](Triangulation& m) { m.copy_triangulation(*coarse); };
+  build_coarse(*mesh);
+  name_periodic_sides(periodic);
+  join_periodic_sides();
 }
 
 template <int dim>
-void Domain<dim>::finish(const std::vector<std::string>& periodic) {
+void Domain<dim>::name_periodic_sides(const std::vector<std::string>& periodic) {
   map = std::make_unique<dealii::MappingQ<dim>>(1);
   for (const auto id : mesh->get_boundary_ids())
     if (!side_names.count(id))
       throw InputError("The mesh has a side with id " + std::to_string(id) +
                        " without a name. Give every side of the air domain a named physical group.");
-  std::vector<dealii::GridTools::PeriodicFacePair<typename Triangulation::cell_iterator>> pairs;
   for (const std::string& pair : periodic) {
     const auto dash = pair.find('-');
     if (dash == std::string::npos)
       throw InputError("Air domain/Periodic sides: \"" + pair + "\" is not a pair like left-right.");
     const std::string first = pair.substr(0, dash), second = pair.substr(dash + 1);
-    const auto a = side(first), b = side(second);
+    const auto a = side(first);
+    side(second);
     dealii::Tensor<1, dim> normal;
     for (const auto& cell : mesh->cell_iterators_on_level(0))
       for (unsigned int f = 0; f < cell->n_faces(); ++f)
@@ -138,9 +144,15 @@ void Domain<dim>::finish(const std::vector<std::string>& periodic) {
     int direction = 0;
     for (int d = 1; d < dim; ++d)
       if (std::abs(normal[d]) > std::abs(normal[direction])) direction = d;
-    dealii::GridTools::collect_periodic_faces(*mesh, a, b, direction, pairs);
     joined.push_back({first, second, direction});
   }
+}
+
+template <int dim>
+void Domain<dim>::join_periodic_sides() {
+  std::vector<dealii::GridTools::PeriodicFacePair<typename Triangulation::cell_iterator>> pairs;
+  for (const Periodicity& p : joined)
+    dealii::GridTools::collect_periodic_faces(*mesh, side(p.first), side(p.second), p.direction, pairs);
   if (!pairs.empty()) mesh->add_periodicity(pairs);
 }
 
@@ -194,6 +206,11 @@ void Domain<dim>::save(const std::string& prefix) const {
 
 template <int dim>
 void Domain<dim>::load(const std::string& prefix) {
+  if (mesh->n_global_levels() > 1) {
+    mesh->clear();
+    build_coarse(*mesh);
+    join_periodic_sides();
+  }
   mesh->load(prefix, false);  // keep the saved partition: the same ranks own the same cells
 }
 

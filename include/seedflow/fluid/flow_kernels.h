@@ -13,13 +13,14 @@ namespace seedflow {
 /// [(group n_q + point) dim + component].
 template <int dim>
 struct FlowFields {
+  using Components = std::array<NodalVector, dim>;
   PointField eps{1.0}, eps_old{1.0}, eps_older{1.0};  ///< void fraction at the new time and before
   PointField beta{0.0};                               ///< drag coefficient [kg/(m3 s)]
   PointField source{0.0};                             ///< drag source + force [N/m3]
   PointField u_old{0.0}, u_older{0.0};                ///< velocities that satisfy mass [m/s]
   PointField theta{0.0};                              ///< pressure stabilisation, set by assemble_momentum
-  std::array<NodalVector, dim> u;                     ///< u~ [m/s]
-  std::array<NodalVector, dim> y;                     ///< projection of kappa grad p [m/s]
+  Components u;                     ///< u~ [m/s]
+  Components y;                     ///< projection of kappa grad p [m/s]
   NodalVector p, phi;                                 ///< old pressure and its increment [Pa]
 };
 
@@ -33,7 +34,7 @@ void project_pressure_gradient(const NodalSpace<dim, degree>& space, const StepC
 /// int eps w.grad q_i - int q_i d(eps)/dt of the extrapolated velocity w, which on open sides is the outflow.
 template <int dim, int degree>
 void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
-                       FlowFields<dim>& fields, SparseMatrix& matrix, std::array<NodalVector, dim>& rhs,
+                       FlowFields<dim>& fields, SparseMatrix& matrix, typename FlowFields<dim>::Components& rhs,
                        NodalVector* mass_defect);
 
 /// int eps kappa grad q_i . grad q_j

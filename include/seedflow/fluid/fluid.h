@@ -102,7 +102,7 @@ class Fluid {
   double courant_number(double dt) const;  ///< max over points of |J^-1 u| dt * degree, all ranks
   double bytes_per_cell() const;
 
-  /// Largest jump of the cell-mean velocity to a neighbour [m/s], per cell of layout(); for refinement.
+  /// Largest difference of nodal velocities within each cell of layout() [m/s]; for refinement.
   std::vector<double> velocity_jump() const;
 
   /// Errors against a known solution, all ranks (L2 norms): of u, u~, and p (mean removed if no side fixes p).

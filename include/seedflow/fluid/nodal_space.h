@@ -26,6 +26,8 @@ class NodalSpace {
   static constexpr int W = lane_width, n = Shape::n, n_q = Shape::n_q;
 
   explicit NodalSpace(const Domain<dim>& domain);
+  /// Again, on the domain's changed mesh.
+  void rebuild(const Domain<dim>& domain);
 
   Shape shape;
   dealii::FE_Q<dim> fe;
@@ -34,7 +36,7 @@ class NodalSpace {
   std::shared_ptr<const SparsityStructure> structure;
   QuadratureLayout<dim> layout;
 
-  std::size_t n_groups = 0, n_free_groups = 0;
+  std::size_t n_groups, n_free_groups;
   std::vector<std::uint32_t> node;   ///< [(group n + i) W + lane], local numbers
   std::vector<std::uint32_t> cell;   ///< [group W + lane], cell of `layout`
   std::vector<std::uint8_t> used;    ///< lanes in use, per group
@@ -46,8 +48,11 @@ class NodalSpace {
   SEEDFLOW_INLINE void gather(const NodalVector& x, std::size_t group, Lanes* out) const {
     const std::uint32_t* index = node.data() + group * n * W;
     const double* value = x.begin();
-    for (int i = 0; i < n; ++i)
-      for (int l = 0; l < W; ++l) out[i][l] = value[index[i * W + l]];
+    for (int i = 0; i < n; ++i) {
+      Lanes v{};
+      for (int l = 0; l < W; ++l) v[l] = value[index[i * W + l]];
+      out[i] = v;
+    }
   }
   /// Adds to the nodes (of constrained nodes: to those that constrain them).
   void scatter(const Lanes* in, std::size_t group, NodalVector& y) const;

@@ -3,7 +3,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/mapping.h>
 
-#include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -65,8 +65,8 @@ class Domain {
   /// Errors: InputError if a rank would have no cell.
   void require_cells_for_all_ranks() const;
 
-  /// The mesh as p4est files with this prefix; all ranks. load() needs the same coarse mesh, freshly constructed and
-  /// never refined.
+  /// The mesh as p4est files with this prefix; all ranks. load() needs a domain constructed from the same parameters
+  /// on as many ranks, and comes before anything (Fluid, point location) is built on the domain.
   void save(const std::string& prefix) const;
   void load(const std::string& prefix);
 
@@ -75,8 +75,10 @@ class Domain {
   std::vector<typename Triangulation::active_cell_iterator> cells_in_z_order() const;
 
  private:
-  void finish(const std::vector<std::string>& periodic);
+  void name_periodic_sides(const std::vector<std::string>& pairs);
+  void join_periodic_sides();
 
+  std::function<void(Triangulation&)> build_coarse;
   std::unique_ptr<Triangulation> mesh;
   std::unique_ptr<dealii::Mapping<dim>> map;
   std::map<dealii::types::boundary_id, std::string> side_names;

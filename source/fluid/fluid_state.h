@@ -1,0 +1,82 @@
+#pragma once
+
+#include "seedflow/fluid/boundary_data.h"
+#include "seedflow/fluid/flow_kernels.h"
+#include "seedflow/fluid/fluid.h"
+#include "seedflow/fluid/krylov.h"
+#include "seedflow/fluid/preconditioner.h"
+
+namespace seedflow {
+
+/// Unknowns, history and linear systems of Fluid.
+template <int dim, int degree>
+struct Fluid<dim, degree>::Implementation {
+  using Components = typename FlowFields<dim>::Components;
+  static constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q, W = lane_width;
+
+  Implementation(const FluidParameters& parameters, Domain<dim>& domain, const BoundaryConditions<dim>& conditions);
+
+  /// Everything that depends on the mesh; fields become zero.
+  void set_up();
+  /// Sets u_old from the nodal velocity, forgets older history.
+  void restart_from_nodal_velocity();
+
+  // fluid_step.cc
+  void advance(double dt, const Exchange<dim>& exchange);
+  void take(const Exchange<dim>& exchange);
+  void solve_momentum();
+  void solve_pressure();
+  void finish_step();
+  [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
+
+  double sum(double a) const { return dealii::Utilities::MPI::sum(a, domain.communicator()); }
+  double max(double a) const { return dealii::Utilities::MPI::max(a, domain.communicator()); }
+
+  /// One value per quadrature point into the kernels' order. Returns whether anything differs from `present`.
+  bool load(const std::vector<double>& values, double when_empty, PointField& field, const PointField& present);
+  std::vector<Vector> points(const PointField& field) const;
+
+  const FluidParameters parameters;
+  Domain<dim>& domain;
+  const BoundaryConditions<dim> conditions;
+  StepCoefficients coefficients;
+  std::unique_ptr<NodalSpace<dim, degree>> space;
+  std::unique_ptr<BoundaryData<dim, degree>> boundary;
+
+  FlowFields<dim> fields;
+  Components u_before;   ///< u~ of the step before the last, for the first guess
+  NodalVector phi_before;
+  Components rhs;
+  NodalVector scalar_rhs, mass_defect;
+  std::unique_ptr<SparseMatrix> momentum_matrix, pressure_matrix;
+  std::unique_ptr<Preconditioner> momentum_preconditioner, pressure_preconditioner;
+  std::vector<double> preconditioned_values;  ///< matrix the multigrid was built from; empty: the present one
+  int iterations_when_built = 0;
+  bool pressure_matrix_valid = false, multigrid_valid = false, multigrid_wanted = true;
+  double inertia_factor = 0;  ///< rho a0/dt the pressure matrix was assembled with
+
+  double time = 0, dt_old = 0;
+  int steps_since_start = 0;
+  MassBalance mass;
+  MomentumBalance<dim> momentum_balance;
+  Vector momentum;
+  FluidStatistics statistics;
+};
+
+/// Adds the CPU time of a scope to a counter.
+class CpuTimer {
+ public:
+  explicit CpuTimer(double& sum) : total(sum), start(now()) {}
+  ~CpuTimer() { total += now() - start; }
+
+ private:
+  static double now() {
+    timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return t.tv_sec + 1e-9 * t.tv_nsec;
+  }
+  double& total;
+  double start;
+};
+
+}  // namespace seedflow

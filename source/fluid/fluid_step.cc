@@ -1,0 +1,314 @@
+#include <cmath>
+#include <sstream>
+
+#include "fluid_state.h"
+
+namespace seedflow {
+
+template <int dim, int degree>
+void Fluid<dim, degree>::Implementation::fail(const std::string& what, const std::string& remedy) const {
+  std::ostringstream message;
+  message << "Air, step from t = " << time << " s with dt = " << coefficients.time.dt << " s: " << what << " " << remedy;
+  throw RunError(message.str());
+}
+
+template <int dim, int degree>
+void Fluid<dim, degree>::Implementation::advance(double dt, const Exchange<dim>& exchange) {
+  coefficients.time = TimeScheme::bdf1(dt);
+  if (!(dt > 0) || !std::isfinite(dt)) fail("the time step is not a positive number.", "Give dt > 0.");
+  if (steps_since_start > 0) coefficients.time = TimeScheme::bdf2(dt, dt_old);
+  take(exchange);
+  solve_momentum();
+  solve_pressure();
+  finish_step();
+}
+
+template <int dim, int degree>
+void Fluid<dim, degree>::Implementation::take(const Exchange<dim>& exchange) {
+  const CpuTimer timer(statistics.update);
+  bool changed = load(exchange.void_fraction, 1.0, fields.eps, fields.eps_old);
+  // beta is overwritten in place: compared with itself before.
+  changed = load(exchange.drag_coefficient, 0.0, fields.beta, fields.beta) || changed;
+  const std::size_t points = space->n_groups * n_q;
+  const bool forced = !exchange.drag_source.empty() || !exchange.force.empty();
+  if (!forced) {
+    fields.source.set_uniform(0.0);
+  } else {
+    for (const auto* given : {&exchange.drag_source, &exchange.force})
+      if (!given->empty() && given->size() != space->layout.size())
+        throw RunError("Air: forces are given for " + std::to_string(given->size()) + " quadrature points of " +
+                       std::to_string(space->layout.size()) + "; use Fluid::layout().");
+    if (fields.source.is_uniform()) fields.source.resize(points * dim, 0.0);
+    for (std::size_t group = 0; group < space->n_groups; ++group)
+      for (int l = 0; l < W; ++l)
+        for (int q = 0; q < n_q; ++q) {
+          const std::size_t from = std::size_t(space->cell[group * W + l]) * n_q + q;
+          for (int d = 0; d < dim; ++d)
+            fields.source.at((group * n_q + q) * dim + d)[l] =
+                (exchange.drag_source.empty() ? 0.0 : exchange.drag_source[from][d]) +
+                (exchange.force.empty() ? 0.0 : exchange.force[from][d]);
+        }
+  }
+  // What could not be used is found before it spreads; all ranks learn of it.
+  double bad[3] = {};
+  for (const double e : exchange.void_fraction) bad[0] += !(e > 0 && e <= 1 + 1e-12);
+  for (const double b : exchange.drag_coefficient) bad[1] += !(b >= 0 && std::isfinite(b));
+  for (const Lanes& f : fields.source.raw())
+    for (int l = 0; l < W; ++l) bad[2] += !std::isfinite(f[l]);
+  MPI_Allreduce(MPI_IN_PLACE, bad, 3, MPI_DOUBLE, MPI_SUM, domain.communicator());
+  if (bad[0] > 0)
+    fail("the void fraction is outside (0, 1] at " + std::to_string(int(bad[0])) + " quadrature points.",
+         "Widen the kernel of the void fraction or coarsen the air mesh.");
+  if (bad[1] > 0)
+    fail("the drag coefficient is negative or not finite at " + std::to_string(int(bad[1])) + " quadrature points.",
+         "Check the drag law.");
+  if (bad[2] > 0) fail("a force on the air is not finite.", "Check the effects that act on the seeds.");
+
+  const double factor = coefficients.density * coefficients.time.now / coefficients.time.dt;
+  if (changed || factor != inertia_factor) pressure_matrix_valid = false;
+  inertia_factor = factor;
+  pressure_matrix_valid = -max(-double(pressure_matrix_valid)) > 0;  // the same decision on all ranks
+}
+
+template <int dim, int degree>
+void Fluid<dim, degree>::Implementation::solve_momentum() {
+  {
+    const CpuTimer timer(statistics.momentum_assembly);
+    project_pressure_gradient(*space, coefficients, fields);
+    assemble_momentum(*space, coefficients, fields, *momentum_matrix, rhs,
+                      boundary->has_open_side ? &mass_defect : nullptr);
+    // Momentum carried through open sides: the outflow of each node times its velocity.
+    for (const auto& node : boundary->fixed_pressure) {
+      double& out = mass_defect.local_element(node.node);
+      out *= coefficients.density;
+      if (!boundary->is_inlet(node.side)) out = std::max(out, 0.0);
+      momentum_matrix->value[space->structure->diagonal[node.node]] += out;
+    }
+  }
+  const CpuTimer timer(statistics.momentum_solve);
+  NodalVector* x[dim];
+  const NodalVector* b[dim];
+  const std::vector<char>* fixed[dim];
+  for (int d = 0; d < dim; ++d) {
+    // First guess: extrapolated. Its ghosts are dropped while it is written.
+    fields.u[d].zero_out_ghost_values();
+    u_before[d].zero_out_ghost_values();
+    if (steps_since_start > 1) {
+      u_before[d].sadd(coefficients.time.extrapolate_older, coefficients.time.extrapolate_old, fields.u[d]);
+      u_before[d].swap(fields.u[d]);
+    } else {
+      u_before[d] = fields.u[d];
+    }
+    x[d] = &fields.u[d];
+    b[d] = &rhs[d];
+    fixed[d] = &boundary->velocity_fixed[d];
+  }
+  boundary->set_velocity(time + coefficients.time.dt, fields.u);
+  momentum_preconditioner->build(*momentum_matrix, space->constrained, false);
+  statistics.momentum_iterations =
+      stabilized_biconjugate_gradients(*momentum_matrix, *momentum_preconditioner, dim, fixed, x, b,
+                                       parameters.momentum_tolerance, parameters.max_iterations);
+  if (statistics.momentum_iterations < 0)
+    fail("the momentum equation was not solved in " + std::to_string(parameters.max_iterations) + " iterations.",
+         "Reduce the time step, or set Air/Linear solver/Momentum preconditioner to ilu.");
+  for (auto& u : fields.u) {
+    u.update_ghost_values();
+    space->set_constrained(u);
+  }
+}
+
+template <int dim, int degree>
+void Fluid<dim, degree>::Implementation::solve_pressure() {
+  const bool singular = !boundary->has_open_side;
+  double scale = 0, inflow = 0;
+  {
+    const CpuTimer timer(statistics.pressure_assembly);
+    if (!pressure_matrix_valid) {
+      if (multigrid_valid && preconditioned_values.empty()) preconditioned_values = pressure_matrix->value;
+      assemble_pressure_matrix(*space, coefficients, fields, *pressure_matrix);
+      pressure_matrix_valid = true;
+    }
+    scale = std::sqrt(sum(assemble_pressure_rhs(*space, coefficients, fields, scalar_rhs)));
+    inflow = sum(boundary->subtract_flux(fields.u, fields.eps, scalar_rhs).first);
+    scalar_rhs.compress(dealii::VectorOperation::add);
+  }
+  if (singular) {
+    double imbalance = 0;
+    for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i) imbalance += scalar_rhs.local_element(i);
+    imbalance = sum(imbalance);
+    if (std::abs(imbalance) > 1e-8 * std::max(inflow, scale)) {
+      std::ostringstream what;
+      what << "the domain is closed, but inflow and change of void volume differ by " << imbalance << " m3/s.";
+      fail(what.str(), "Give one side a pressure outlet.");
+    }
+  }
+  {
+    const CpuTimer timer(statistics.pressure_setup);
+    if (!multigrid_valid || multigrid_wanted) {
+      pressure_preconditioner->build(*pressure_matrix, boundary->pressure_fixed, singular);
+      preconditioned_values.clear();
+      multigrid_valid = true;
+      ++statistics.preconditioners_built;
+      iterations_when_built = -1;
+      multigrid_wanted = false;
+    }
+  }
+  const CpuTimer timer(statistics.pressure_solve);
+  // Relative to the right-hand side of the equation for the whole pressure, |b + A p_old|.
+  fields.phi.zero_out_ghost_values();
+  phi_before.zero_out_ghost_values();
+  const auto& fixed = boundary->pressure_fixed;
+  double whole = 0;
+  for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i)
+    if (!fixed[i])
+      whole += std::pow(scalar_rhs.local_element(i) + pressure_matrix->row_times(i, fields.p), 2);
+  const double tolerance = std::max(parameters.pressure_tolerance * std::sqrt(sum(whole)), 1e-15 * scale);
+  if (steps_since_start > 2) {
+    phi_before.sadd(-1.0, 2.0, fields.phi);
+    phi_before.swap(fields.phi);
+  } else {
+    phi_before = fields.phi;
+  }
+  if (steps_since_start == 0) fields.phi = 0;
+  boundary->set_pressure(time + coefficients.time.dt, fields.phi);
+  for (const auto& node : boundary->fixed_pressure)
+    fields.phi.local_element(node.node) -= fields.p.local_element(node.node);
+  const auto solve = [&] {
+    return conjugate_gradients(*pressure_matrix, *pressure_preconditioner, fixed, singular, fields.phi, scalar_rhs,
+                               tolerance, parameters.max_iterations);
+  };
+  int iterations = solve();
+  if (iterations < 0 && !preconditioned_values.empty()) {  // the preconditioner belongs to an older matrix
+    pressure_preconditioner->build(*pressure_matrix, fixed, singular);
+    preconditioned_values.clear();
+    ++statistics.preconditioners_built;
+    fields.phi = phi_before;
+    boundary->set_pressure(time + coefficients.time.dt, fields.phi);
+    for (const auto& node : boundary->fixed_pressure)
+      fields.phi.local_element(node.node) -= fields.p.local_element(node.node);
+    iterations = solve();
+    iterations_when_built = -1;
+  }
+  if (iterations < 0)
+    fail("the pressure equation was not solved in " + std::to_string(parameters.max_iterations) + " iterations.",
+         "Check the void fraction for values near 0, reduce the time step, or try the other backend.");
+  statistics.pressure_iterations = iterations;
+  if (iterations_when_built < 0) iterations_when_built = iterations;
+  multigrid_wanted = !preconditioned_values.empty() && iterations > iterations_when_built * 3 / 2 + 3;
+  fields.phi.update_ghost_values();
+  space->set_constrained(fields.phi);
+}
+
+template <int dim, int degree>
+void Fluid<dim, degree>::Implementation::finish_step() {
+  const CpuTimer timer(statistics.update);
+  const StepIntegrals<dim> integrals = correct_velocity(*space, coefficients, fields, scalar_rhs);
+  const double inflow = boundary->subtract_flux(fields.u, fields.eps, scalar_rhs).first;
+  scalar_rhs.compress(dealii::VectorOperation::add);
+
+  // Residuals of mass; at open sides they are the outflow instead.
+  double through_open_sides = 0, largest = 0, total = 0;
+  std::vector<char> open(space->structure->n_owned(), 0);
+  for (const auto& node : boundary->fixed_pressure) open[node.node] = 1;
+  for (std::uint32_t i = 0; i < open.size(); ++i) {
+    const double r = scalar_rhs.local_element(i);
+    if (space->constrained[i]) continue;
+    if (open[i]) {
+      through_open_sides += std::max(0.0, -r);
+      continue;
+    }
+    largest = std::isfinite(r) ? std::max(largest, std::abs(r)) : INFINITY;
+    total += r;
+  }
+  // Momentum: reactions of given velocities, momentum through open sides, sums over all ranks at once.
+  const std::size_t n_sides = boundary->names.size();
+  std::vector<double> sums;
+  for (const auto* a : {integrals.change, integrals.exchange, integrals.pressure, integrals.share, integrals.momentum})
+    sums.insert(sums.end(), a, a + dim);
+  std::vector<double> reaction(n_sides * dim, 0.0);
+  for (int d = 0; d < dim; ++d) {
+    for (const auto& node : boundary->fixed_velocity[d])
+      reaction[node.side * dim + d] +=
+          momentum_matrix->row_times(node.node, fields.u[d]) - rhs[d].local_element(node.node);
+    for (const auto& node : boundary->fixed_pressure)
+      reaction[node.side * dim + d] -= mass_defect.local_element(node.node) * fields.u[d].local_element(node.node);
+  }
+  sums.insert(sums.end(), reaction.begin(), reaction.end());
+  fields.p.zero_out_ghost_values();
+  fields.phi.zero_out_ghost_values();
+  fields.p += fields.phi;
+  fields.p.update_ghost_values();
+  for (const Vector& f : boundary->pressure_force(fields.p))
+    for (int d = 0; d < dim; ++d) sums.push_back(f[d]);
+  for (const double a : {inflow, through_open_sides, integrals.growth, integrals.circulation, total}) sums.push_back(a);
+  double volume = 0, p_sum = 0;
+  if (!boundary->has_open_side)
+    for (std::uint32_t i = 0; i < open.size(); ++i)
+      if (!space->constrained[i]) {
+        volume += 1;
+        p_sum += fields.p.local_element(i);
+      }
+  sums.push_back(volume);
+  sums.push_back(p_sum);
+  double domain_volume = 0;
+  for (const double v : space->layout.cell_volume) domain_volume += v;
+  sums.push_back(domain_volume);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, domain.communicator());
+  largest = max(largest);
+
+  auto next = sums.begin();
+  const auto vector = [&next] {
+    Vector v;
+    for (int d = 0; d < dim; ++d) v[d] = *next++;
+    return v;
+  };
+  auto& balance = momentum_balance;
+  balance.change = vector();
+  balance.exchange = vector();
+  balance.pressure = vector();
+  balance.pressure_share = vector();
+  momentum = vector();
+  Vector left = balance.change - balance.exchange - balance.pressure;
+  double scale = std::max({balance.change.norm(), balance.exchange.norm(), balance.pressure.norm()});
+  for (const auto& name : boundary->names) {
+    const Vector r = vector();
+    balance.reaction[name] = r;
+    left -= r;
+    scale = std::max(scale, r.norm());
+  }
+  for (const auto& name : boundary->names) {
+    balance.pressure_force[name] = vector();
+    scale = std::max(scale, balance.pressure_force[name].norm());
+  }
+  balance.residual = scale > 0 ? left.norm() / scale : 0;
+  const double in = *next++, out = *next++, growth = *next++, circulation = *next++, sum_residual = *next++;
+  const double n_free = *next++, pressure_sum = *next++, whole_volume = *next++;
+  mass.flow = std::max({in, out, growth, circulation / std::pow(whole_volume, 1.0 / dim)});
+  mass.largest = mass.flow > 0 ? largest / mass.flow : 0;
+  mass.total = mass.flow > 0 ? std::abs(sum_residual) / mass.flow : 0;
+  if (!boundary->has_open_side) {
+    // Only differences of pressure matter: keep the mean of the nodes at zero.
+    fields.p.zero_out_ghost_values();
+    fields.p.add(-pressure_sum / n_free);
+    fields.p.update_ghost_values();
+    space->set_constrained(fields.p);
+  } else {
+    space->set_constrained(fields.p);
+  }
+  if (!std::isfinite(momentum.norm()) || !std::isfinite(largest))
+    fail("the flow is not finite.", "Reduce the time step.");
+
+  std::swap(fields.u_older, fields.u_old);
+  std::swap(fields.eps_older, fields.eps_old);
+  std::swap(fields.eps_old, fields.eps);
+  time += coefficients.time.dt;
+  dt_old = coefficients.time.dt;
+  ++steps_since_start;
+}
+
+template struct Fluid<2, 1>::Implementation;
+template struct Fluid<3, 1>::Implementation;
+template struct Fluid<2, 2>::Implementation;
+template struct Fluid<3, 2>::Implementation;
+
+}  // namespace seedflow
