@@ -14,19 +14,19 @@
 
 namespace seedflow {
 
-/// A new folder, the same on all ranks, removed at the end.
+/// A new folder, the same on all ranks of a communicator, removed at the end. Without one MPI is not needed.
 class TemporaryFolder {
  public:
-  explicit TemporaryFolder(MPI_Comm comm_ = MPI_COMM_SELF) : comm(comm_) {
-    MPI_Comm_rank(comm, &rank);
+  explicit TemporaryFolder(MPI_Comm comm_ = MPI_COMM_NULL) : comm(comm_) {
+    if (comm != MPI_COMM_NULL) MPI_Comm_rank(comm, &rank);
     char name[64] = "/seedflow_test_XXXXXX";
     std::string full = std::filesystem::temp_directory_path().string() + name;
     if (rank == 0 && ::mkdtemp(full.data()) == nullptr) throw RunError("no temporary folder");
-    MPI_Bcast(full.data(), static_cast<int>(full.size()), MPI_CHAR, 0, comm);
+    if (comm != MPI_COMM_NULL) MPI_Bcast(full.data(), static_cast<int>(full.size()), MPI_CHAR, 0, comm);
     path = full;
   }
   ~TemporaryFolder() {
-    MPI_Barrier(comm);
+    if (comm != MPI_COMM_NULL) MPI_Barrier(comm);
     std::error_code ignored;
     if (rank == 0) std::filesystem::remove_all(path, ignored);
   }
