@@ -4,6 +4,7 @@
 
 #include "sample_templates.h"
 #include "seedflow/seeds/dem.h"
+#include "seedflow/seeds/template_parameters.h"
 
 namespace seedflow {
 namespace {
@@ -49,8 +50,8 @@ TEST(BondedMotion, TurnedSeedIsUnstressed) {
 
 // The required figure: energy drift <= 1e-4 over 1e5 steps of 1e-6 s of a free seed that spins and vibrates.
 TEST(BondedMotion, EnergyMomentumAndAngularMomentumOfFreeSpinningVibratingSeed) {
-  Dem dem = one_seed(test::lattice_seed(), weightless());
-  const SeedTemplate model = test::lattice_seed();
+  const SeedTemplate model = make_seed_template({});  // 70 sub-spheres, the paper's BS = 0.1
+  Dem dem = one_seed(model, weightless());
   dem.add_seed(0, {}, {}, {0.2, -0.1, 0.05}, {60, -40, 80});
   // A sudden pull at one end sets it vibrating.
   SphereLoads load;
