@@ -177,6 +177,7 @@ std::size_t Dem::bytes() const {
 }
 
 void Dem::save(std::ostream& out) const {
+  write_binary(out, lane_width);
   write_binary(out, n_spheres());
   write_binary(out, now);
   write_binary(out, substeps);
@@ -196,7 +197,12 @@ void Dem::save(std::ostream& out) const {
 }
 
 void Dem::load(std::istream& in) {
-  int spheres = 0;
+  int width = 0, spheres = 0;
+  read_binary(in, width);
+  if (width != lane_width)
+    throw RunError("The saved state was made by a build with " + std::to_string(width) +
+                   " numbers in a SIMD register, this build has " + std::to_string(lane_width) +
+                   ". Resume on a machine of the same kind, or start again.");
   read_binary(in, spheres);
   if (spheres != n_spheres())
     throw RunError("The saved state holds " + std::to_string(spheres) + " sub-spheres, this set-up has " +
