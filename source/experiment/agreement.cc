@@ -25,7 +25,7 @@ Outcome outcome_of(const std::function<int()>& work) {
   } catch (const RunError& error) {
     return {exit_failed, error.what()};
   } catch (const Interrupted&) {
-    return {exit_interrupted, "Interrupted."};
+    return {exit_interrupted, ""};  // who catches it first has written the checkpoint and said so
   } catch (const std::bad_alloc&) {
     return {exit_failed,
             "The memory of this machine is not enough. Use a coarser mesh, fewer seeds or more machines."};
