@@ -24,7 +24,7 @@ SeedBench bench(bool rigid, bool packed, double seconds) {
   dem.add_template(model, material, rigid);
 
   const int per_edge[3] = {10, 10, 8};
-  const double spacing = 2 * model.bounding_radius * (packed ? 0.97 : 1.5);
+  const double spacing = 2 * model.bounding_radius * (packed ? 1.0 : 1.5);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto vector = [&](double size) {

@@ -19,9 +19,9 @@ struct SeedBench {
 };
 
 /// 800 bonded seeds of 70 sub-spheres (the paper's BS = 0.1 model) in double precision: bonds, motion,
-/// contact search and contact forces. `packed`: a lattice in which all seeds touch their neighbours and move
-/// at random against each other; else a cloud of seeds that fly at 0.3 m/s and meet now and then, as in the
-/// seed-metering device of the paper, where 800 seeds fall and slide.
+/// contact search and contact forces. `packed`: a cubic lattice in which bounding spheres touch and all seeds
+/// jostle at 0.05 m/s; else a cloud of seeds that fly at 0.3 m/s half a diameter apart, as in the
+/// seed-metering device of the paper, where 800 seeds fall and slide. Neither is as dense as a settled heap.
 SeedBench bench_seeds_bonded(bool packed = false, double seconds = 2);
 
 /// The same seeds as rigid bodies.
