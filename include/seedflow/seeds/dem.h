@@ -64,7 +64,9 @@ struct DemEnergies {
 /// dt; rigid seeds turn by the symplectic splitting of Dullweber, Leimkuhler & McLachlan (1997).
 ///
 /// Sub-spheres are numbered seed by seed in the order in which seeds were added, whatever their template.
-/// Every MPI rank holds and computes all seeds; the arithmetic does not depend on the number of ranks.
+/// Contacts act between different seeds and with walls; sub-spheres of one seed know each other through bonds
+/// only, so fragments of a broken seed pass through each other. Every MPI rank holds and computes all seeds;
+/// the arithmetic does not depend on the number of ranks.
 ///
 /// Errors: InputError from add_* and check(): a seed outside the domain or inside a wall, a time step above
 /// its limit. RunError from advance(): NaN, or a seed's centre outside the domain: which seed, where, when.
