@@ -18,6 +18,9 @@ double as_tensor(double a) {
 void add_scaled(Vec3& sum, double w, const Tensor<1, 3>& value) {
   sum.x += w * value[0], sum.y += w * value[1], sum.z += w * value[2];
 }
+void add_scaled(Vec3& sum, double w, const Vec3& value) {
+  sum += w * value;
+}
 void add_scaled(double& sum, double w, double value) {
   sum += w * value;
 }
@@ -74,6 +77,9 @@ long PointExchange::normalize() {
 }
 
 std::vector<Vec3> PointExchange::average(const std::vector<Tensor<1, 3>>& field) const {
+  return weighted_sums<Vec3>(row_end, entries, field, comm);
+}
+std::vector<Vec3> PointExchange::average(const std::vector<Vec3>& field) const {
   return weighted_sums<Vec3>(row_end, entries, field, comm);
 }
 std::vector<double> PointExchange::average(const std::vector<double>& field) const {

@@ -1,14 +1,17 @@
 #include "seedflow/base/parameters.h"
 #include "seedflow/experiment/experiment.h"
+#include "seedflow/experiment/settling.h"
+#include "seedflow/experiment/settling_study.h"
+#include "seedflow/experiment/settling_tank.h"
 
 namespace seedflow {
 
 std::vector<Experiment> experiment_catalogue() {
-  return {};
-}
-
-std::vector<Bench> bench_catalogue() {
-  return {};
+  return {{"settling", "one bonded seed falls in a fluid", run_settling, describe_settling},
+          {"settling study", "five seed models x readings x kinds of drag, beside the paper's Table 5",
+           run_settling_study, describe_settling_study},
+          {"settling tank", "a sphere in a closed tank, beside measurements", run_settling_tank,
+           describe_settling_tank}};
 }
 
 void declare_experiment_name(Parameters& parameters, std::string& name) {

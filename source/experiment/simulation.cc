@@ -1,6 +1,7 @@
 #include "seedflow/experiment/simulation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace seedflow {

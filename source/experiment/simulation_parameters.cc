@@ -65,7 +65,7 @@ void SimulationParameters::check(const Parameters& p) {
   for (int d = 0; d < 3; ++d)
     if (!(domain.lower[d] < seeds.position[d] && seeds.position[d] < domain.upper[d]))
       p.reject("Seeds/Position", "the seed starts outside the air domain",
-               "choose a place between Air domain/Lower and Air domain/Upper");
+               "choose a place between Air domain/Lower corner and Upper corner");
   if (air_model == "navier-stokes" && coupling.exchange_kernel == "gaussian") {
     double coarsest = 0;
     for (int d = 0; d < 3; ++d)

@@ -31,9 +31,11 @@ PointLocationRate measure_point_location(MPI_Comm communicator) {
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Point<3>> points;
   for (int s = 0; s < n_seeds; ++s) {
-    const Point<3> centre(0.02 + 0.06 * uniform(random), 0.02 + 0.06 * uniform(random), 0.02 + 0.08 * uniform(random));
+    const Point<3> centre(0.02 + 0.06 * uniform(random), 0.02 + 0.06 * uniform(random),
+                          0.02 + 0.08 * uniform(random));
     for (int i = 0; i < n_sub_spheres; ++i)
-      points.push_back(centre + 0.004 * Point<3>(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5));
+      points.push_back(centre +
+                       0.004 * Point<3>(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5));
   }
 
   PointLocationRate result;

@@ -41,6 +41,7 @@ class PointExchange {
 
   /// Averages at all points, the same on every rank. Collective.
   std::vector<Vec3> average(const std::vector<dealii::Tensor<1, 3>>& field) const;
+  std::vector<Vec3> average(const std::vector<Vec3>& field) const;
   std::vector<double> average(const std::vector<double>& field) const;
 
   /// Adds the density of the amounts to the field: [amount]/m3.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seedflow {
+
+/// One measured value.
+struct Measurement {
+  std::string condition;       ///< name of the condition it was taken under
+  std::string quantity, unit;  ///< an observable of the experiment
+  double coordinate = 0;       ///< time, position, ...; NaN if the quantity has none
+  std::string coordinate_unit;
+  double value = 0;
+  double standard_uncertainty = 0;
+  int line = 0;  ///< of the file
+};
+
+/// One set of conditions: what differs from the base .prm.
+struct Condition {
+  std::string name;
+  bool held_out = false;
+  std::vector<std::string> overrides;  ///< "Section/Entry=value unit"
+};
+
+/// Reads `condition,quantity,unit,coordinate,coordinate_unit,value,standard_uncertainty`; lines that begin
+/// with # are comments. Errors: InputError with file and line for a missing column, a number that is none,
+/// not finite, or an uncertainty that is not positive, a point given twice.
+std::vector<Measurement> read_measurements(const std::filesystem::path& file);
+
+/// Reads `condition,held_out,` and one column per entry that differs, named `Section/Entry [unit]`; held_out
+/// is yes or no. Errors: InputError with file and line.
+std::vector<Condition> read_conditions(const std::filesystem::path& file);
+
+}  // namespace seedflow

@@ -1,0 +1,119 @@
+#include "seedflow/experiment/measurements.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "seedflow/base/error.h"
+#include "seedflow/output/folder.h"
+
+namespace seedflow {
+
+namespace {
+
+std::string trim(const std::string& s) {
+  const auto a = s.find_first_not_of(" \t\r"), b = s.find_last_not_of(" \t\r");
+  return a == std::string::npos ? "" : s.substr(a, b - a + 1);
+}
+
+/// The rows of a CSV, comments and empty lines left out, each with its line number.
+struct Row {
+  int line;
+  std::vector<std::string> fields;
+};
+
+std::vector<Row> read_rows(const std::filesystem::path& file) {
+  std::istringstream text(read_file(file));
+  std::vector<Row> rows;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    line = trim(line);
+    if (line.empty() || line[0] == '#') continue;
+    Row row{number, {}};
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) row.fields.push_back(trim(field));
+    if (line.back() == ',') row.fields.push_back("");
+    rows.push_back(row);
+  }
+  if (rows.empty()) throw InputError(file.string() + ": the file is empty.");
+  for (const Row& row : rows)
+    if (row.fields.size() != rows[0].fields.size())
+      throw InputError(file.string() + ":" + std::to_string(row.line) + ": " +
+                       std::to_string(row.fields.size()) + " fields, but the header has " +
+                       std::to_string(rows[0].fields.size()) + ".");
+  return rows;
+}
+
+double to_number(const std::string& text, const std::string& where, const std::string& what) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw InputError(where + ": " + what + " \"" + text + "\" is not a finite number.");
+  return value;
+}
+
+}  // namespace
+
+std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
+  const std::vector<Row> rows = read_rows(file);
+  const std::vector<std::string> header = {
+      "condition", "quantity", "unit", "coordinate", "coordinate_unit", "value", "standard_uncertainty"};
+  if (rows[0].fields != header)
+    throw InputError(file.string() + ":" + std::to_string(rows[0].line) +
+                     ": the header must be condition,quantity,unit,coordinate,coordinate_unit,value,"
+                     "standard_uncertainty.");
+  std::vector<Measurement> result;
+  std::set<std::string> seen;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto& f = rows[i].fields;
+    const std::string where = file.string() + ":" + std::to_string(rows[i].line);
+    Measurement m{f[0], f[1], f[2], std::numeric_limits<double>::quiet_NaN(), f[4], 0, 0, rows[i].line};
+    if (!f[3].empty()) m.coordinate = to_number(f[3], where, "the coordinate");
+    m.value = to_number(f[5], where, "the value");
+    m.standard_uncertainty = to_number(f[6], where, "the standard uncertainty");
+    if (!(m.standard_uncertainty > 0))
+      throw InputError(
+          where + ": the standard uncertainty " + f[6] +
+          " must be positive. If it is not known, estimate it; zero would mean a perfect measurement.");
+    if (!seen.insert(f[0] + "," + f[1] + "," + f[3] + "," + f[5]).second)
+      throw InputError(where + ": this point stands in the file twice.");
+    result.push_back(m);
+  }
+  return result;
+}
+
+std::vector<Condition> read_conditions(const std::filesystem::path& file) {
+  const std::vector<Row> rows = read_rows(file);
+  const std::vector<std::string>& header = rows[0].fields;
+  const std::string head = file.string() + ":" + std::to_string(rows[0].line);
+  if (header.size() < 2 || header[0] != "condition" || header[1] != "held_out")
+    throw InputError(head + ": the header must begin with condition,held_out.");
+  std::vector<std::string> path, unit;
+  for (std::size_t c = 2; c < header.size(); ++c) {
+    const auto open = header[c].rfind('[');
+    if (open == std::string::npos || header[c].back() != ']')
+      throw InputError(head + ": column \"" + header[c] +
+                       "\" has no unit. Write it in brackets, as in Air/Density [kg/m3]; [1] for none.");
+    path.push_back(trim(header[c].substr(0, open)));
+    unit.push_back(header[c].substr(open + 1, header[c].size() - open - 2));
+  }
+  std::vector<Condition> result;
+  std::set<std::string> seen;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto& f = rows[i].fields;
+    const std::string where = file.string() + ":" + std::to_string(rows[i].line);
+    if (f[1] != "yes" && f[1] != "no")
+      throw InputError(where + ": held_out must be yes or no, not \"" + f[1] + "\".");
+    if (!seen.insert(f[0]).second)
+      throw InputError(where + ": the condition \"" + f[0] + "\" stands here twice.");
+    Condition condition{f[0], f[1] == "yes", {}};
+    for (std::size_t c = 0; c < path.size(); ++c)
+      condition.overrides.push_back(path[c] + "=" + f[c + 2] + (unit[c] == "1" ? "" : " " + unit[c]));
+    result.push_back(condition);
+  }
+  return result;
+}
+
+}  // namespace seedflow
