@@ -154,7 +154,8 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
     }
   }
   const CpuTimer timer(statistics.pressure_solve);
-  // Relative to the right-hand side of the equation for the whole pressure, |b + A p_old|.
+  // Relative to the right-hand side of the equation for the whole pressure, |b + A p_old|, and to the flow through
+  // the cells, whichever is less; not below round-off of the latter.
   fields.phi.zero_out_ghost_values();
   phi_before.zero_out_ghost_values();
   const auto& fixed = boundary->pressure_fixed;
@@ -162,7 +163,8 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
   for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i)
     if (!fixed[i])
       whole += std::pow(scalar_rhs.local_element(i) + pressure_matrix->row_times(i, fields.p), 2);
-  const double tolerance = std::max(parameters.pressure_tolerance * std::sqrt(sum(whole)), 1e-15 * scale);
+  const double tolerance =
+      std::max(parameters.pressure_tolerance * std::min(std::sqrt(sum(whole)), scale), 1e-15 * scale);
   if (steps_since_start > 2) {
     phi_before.sadd(-1.0, 2.0, fields.phi);
     phi_before.swap(fields.phi);

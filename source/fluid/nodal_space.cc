@@ -162,9 +162,13 @@ void NodalSpace<dim, degree>::compute_geometry(const Domain<dim>& domain) {
   layout.cell_volume.assign(place.size(), 0.0);
   std::vector<double> inverse(place.size() * n_q * dim * dim);
   std::vector<char> affine(place.size(), 1);
-  std::uint32_t c = 0;
-  for (const auto& active : dofs.active_cell_iterators()) {
-    if (!active->is_locally_owned()) continue;
+  std::vector<std::uint32_t> number(domain.triangulation().n_active_cells());
+  std::uint32_t count = 0;
+  for (const auto& active : domain.triangulation().active_cell_iterators())
+    if (active->is_locally_owned()) number[active->active_cell_index()] = count++;
+  // In Z order: FEValues reuses values of a similar cell before, so the last bits depend on the order.
+  for (const auto& active : domain.cells_in_z_order()) {
+    const std::uint32_t c = number[active->active_cell_index()];
     values.reinit(active);
     double largest = 0, difference = 0;
     for (int q = 0; q < n_q; ++q) {
@@ -179,7 +183,7 @@ void NodalSpace<dim, degree>::compute_geometry(const Domain<dim>& domain) {
           difference = std::max(difference, std::abs(a - values.inverse_jacobian(0)[e][d]));
         }
     }
-    affine[c++] = difference < 1e-12 * largest;
+    affine[c] = difference < 1e-12 * largest;
   }
   for (std::size_t g = 0; g < n_groups; ++g) {
     bool all = true;

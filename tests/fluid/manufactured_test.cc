@@ -1,0 +1,99 @@
+#include "manufactured.h"
+
+#include <gtest/gtest.h>
+
+// Orders of convergence against solutions known in closed form, with a void fraction that varies in space and time.
+
+namespace seedflow {
+namespace {
+
+struct Result {
+  double velocity, pressure, mass, total, momentum;
+};
+
+template <int dim, int degree>
+Result solve(const Manufactured<dim>& m, int cells, bool hanging, double end, int steps) {
+  const auto domain = unit_box<dim>(cells, hanging);
+  Fluid<dim, degree> fluid(m.parameters(), *domain, m.conditions(*domain));
+  m.start(fluid, 0.1);
+  Result r{};
+  const double dt = end / steps;
+  for (int s = 0; s < steps; ++s) {
+    fluid.advance(dt, m.exchange(fluid.layout(), fluid.time() + dt));
+    r.mass = std::max(r.mass, fluid.mass_balance().largest);
+    r.total = std::max(r.total, fluid.mass_balance().total);
+    r.momentum = std::max(r.momentum, fluid.momentum_balance().residual);
+  }
+  const auto e = m.errors(fluid);
+  r.velocity = e.velocity;
+  r.pressure = e.pressure;
+  return r;
+}
+
+/// dt and h are halved together: order 2 in the velocity shows order 2 in space and in time at once.
+template <int dim>
+void expect_orders(const Manufactured<dim>& m, int cells, bool hanging, double end, int steps) {
+  const Result a = solve<dim, 1>(m, cells, hanging, end, steps), b = solve<dim, 1>(m, 2 * cells, hanging, end, 2 * steps);
+  EXPECT_GT(std::log2(a.velocity / b.velocity), 1.9) << a.velocity << " -> " << b.velocity;
+  EXPECT_GT(std::log2(a.pressure / b.pressure), 1.5) << a.pressure << " -> " << b.pressure;
+  for (const Result& r : {a, b}) {
+    EXPECT_LT(r.mass, 1e-10);  // pressure solved to 1e-11
+    EXPECT_LT(r.total, 1e-12);
+    EXPECT_LT(r.momentum, 1e-8);  // momentum solved to 1e-11 in every node
+  }
+}
+
+TEST(Manufactured2d, OrdersOnUniformMeshModelA) { expect_orders<2>({}, 16, false, 0.5, 20); }
+TEST(Manufactured2d, OrdersWithHangingNodes) { expect_orders<2>({}, 16, true, 0.5, 20); }
+TEST(Manufactured2d, OrdersModelB) {
+  Manufactured<2> m;
+  m.model_a = false;
+  expect_orders(m, 16, false, 0.5, 20);
+}
+TEST(Manufactured3d, OrdersOnUniformMesh) { expect_orders<3>({}, 4, false, 0.3, 3); }
+TEST(Manufactured3d, OrdersWithHangingNodes) { expect_orders<3>({}, 4, true, 0.3, 3); }
+
+/// Quadratic elements on a mesh so fine that the error in space does not matter (16 times finer than needed).
+TEST(Manufactured2d, SecondOrderInTime) {
+  const Result a = solve<2, 2>({}, 16, false, 0.5, 10), b = solve<2, 2>({}, 16, false, 0.5, 20);
+  EXPECT_GT(std::log2(a.velocity / b.velocity), 1.8) << a.velocity << " -> " << b.velocity;
+  EXPECT_GT(std::log2(a.pressure / b.pressure), 1.0) << a.pressure << " -> " << b.pressure;
+}
+
+/// Quadratic elements: better than linear ones by far on as many nodes, order above 2.
+TEST(Manufactured2d, QuadraticElements) {
+  const Result linear = solve<2, 1>({}, 16, false, 0.2, 40), coarse = solve<2, 2>({}, 4, false, 0.2, 20),
+               fine = solve<2, 2>({}, 8, false, 0.2, 40);
+  EXPECT_LT(fine.velocity, 0.6 * linear.velocity);
+  EXPECT_GT(std::log2(coarse.velocity / fine.velocity), 2.4) << coarse.velocity << " -> " << fine.velocity;
+  EXPECT_LT(fine.mass, 1e-10);
+}
+
+TEST(Manufactured3d, QuadraticElementsRun) {
+  const Result r = solve<3, 2>({}, 2, false, 0.1, 2);
+  EXPECT_LT(r.velocity, 0.1);
+  EXPECT_LT(r.mass, 1e-10);
+  EXPECT_LT(r.momentum, 1e-8);
+}
+
+/// Drag over ten orders of magnitude: the velocity stays accurate, mass and momentum are kept.
+TEST(Manufactured2d, AnyDrag) {
+  for (const double drag : {0.0, 1.0, 1e4, 1e8}) {
+    Manufactured<2> m;
+    m.drag = drag;
+    const Result r = solve<2, 1>(m, 16, true, 0.2, 8);
+    EXPECT_LT(r.velocity, 5e-3) << drag;  // max |u| is about 1
+    EXPECT_LT(r.mass, 1e-10) << drag;
+    EXPECT_LT(r.momentum, 1e-8) << drag;
+  }
+}
+
+/// A time step far below the diffusive one: the pressure must not develop a checkerboard.
+TEST(Manufactured2d, PressureWithTinySteps) {
+  Manufactured<2> m;
+  const Result coarse = solve<2, 1>(m, 8, false, 0.1, 100), fine = solve<2, 1>(m, 16, false, 0.1, 100);
+  EXPECT_GT(std::log2(coarse.pressure / fine.pressure), 1.0) << coarse.pressure << " -> " << fine.pressure;
+}
+
+}  // namespace
+}  // namespace seedflow
