@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -47,21 +48,6 @@ int gravity(int status) {
   }
 }
 
-/// Whether all ranks arrive here in time; ranks without an error wait as long as it takes.
-bool all_arrive(MPI_Comm communicator, bool in_error, double patience) {
-  MPI_Request request;
-  MPI_Ibarrier(communicator, &request);
-  const double begin = MPI_Wtime();
-  for (;;) {
-    int done = 0;
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-    if (done) return true;
-    if (in_error && MPI_Wtime() - begin > patience) return false;
-    const timespec pause{0, 1000000};
-    nanosleep(&pause, nullptr);
-  }
-}
-
 std::vector<std::string> gather(MPI_Comm communicator, const std::string& text) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(communicator, &rank);
@@ -86,6 +72,20 @@ std::vector<std::string> gather(MPI_Comm communicator, const std::string& text) 
 
 }  // namespace
 
+bool all_ranks_arrive(MPI_Comm communicator, double patience) {
+  MPI_Request request;
+  MPI_Ibarrier(communicator, &request);
+  const double begin = MPI_Wtime();
+  for (;;) {
+    int done = 0;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done) return true;
+    if (MPI_Wtime() - begin > patience) return false;
+    const timespec pause{0, 1000000};
+    nanosleep(&pause, nullptr);
+  }
+}
+
 int run_in_agreement(MPI_Comm communicator, const std::function<int()>& work, std::ostream& errors,
                      double patience) {
   int rank = 0, ranks = 1;
@@ -96,7 +96,8 @@ int run_in_agreement(MPI_Comm communicator, const std::function<int()>& work, st
   MPI_Comm_dup(communicator, &own);
 
   const Outcome mine = outcome_of(work);
-  if (!all_arrive(own, mine.status != exit_done, patience)) {
+  // Ranks without an error wait as long as it takes.
+  if (!all_ranks_arrive(own, mine.status != exit_done ? patience : HUGE_VAL)) {
     errors << "Rank " << rank << " of " << ranks << ": " << mine.message << "\nThe other ranks are ended."
            << std::endl;
     MPI_Abort(communicator, mine.status);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "seedflow/base/together.h"
+
 namespace seedflow {
 
 namespace {
@@ -40,6 +42,7 @@ std::vector<Column> seed_columns(int n_seeds) {
 Recorder::Recorder(const Simulation& simulation, const std::filesystem::path& folder,
                    std::optional<double> resume_time)
     : folder(folder),
+      comm(simulation.communicator()),
       writes(dealii::Utilities::MPI::this_mpi_process(simulation.communicator()) == 0),
       series_interval(simulation.settings().run.series_interval),
       field_interval(simulation.settings().run.field_interval) {
@@ -47,7 +50,12 @@ Recorder::Recorder(const Simulation& simulation, const std::filesystem::path& fo
     next_row = due(*resume_time, series_interval) + 1;
     if (field_interval > 0) next_field = due(*resume_time, field_interval) + 1;
   }
-  if (!writes) return;
+  together(comm, [&] {
+    if (writes) open(simulation, resume_time);
+  });
+}
+
+void Recorder::open(const Simulation& simulation, std::optional<double> resume_time) {
   const std::vector<Column> columns = seed_columns(simulation.dem().n_seeds());
   const auto csv = folder / "seeds.csv", seeds_file = folder / "seeds.pvd", air_file = folder / "air.pvd";
   if (resume_time)
@@ -68,7 +76,9 @@ Recorder::Recorder(const Simulation& simulation, const std::filesystem::path& fo
 void Recorder::record(Simulation& simulation) {
   const double time = simulation.time();
   if (const long now = due(time, series_interval); now >= next_row) {
-    write_row(simulation);
+    together(comm, [&] {
+      if (writes) write_row(simulation);
+    });
     next_row = now + 1;
   }
   if (field_interval == 0) return;
@@ -79,7 +89,6 @@ void Recorder::record(Simulation& simulation) {
 }
 
 void Recorder::write_row(const Simulation& simulation) {
-  if (!writes) return;
   const Dem& dem = simulation.dem();
   const bool started = !simulation.force_on_bodies().empty() && !simulation.air_at_bodies().velocity.empty();
   std::vector<double> row = {simulation.time()};
@@ -106,13 +115,18 @@ void Recorder::write_row(const Simulation& simulation) {
 }
 
 void Recorder::write_fields(Simulation& simulation) {
-  const double time = simulation.time();
   const auto count = static_cast<unsigned int>(next_field);
-  if (simulation.fluid()) {
-    const std::string file = simulation.fluid()->write(folder.string(), "air", count);
-    if (writes) air_pvd->add(time, std::filesystem::path(file).filename().string());
-  }
-  if (!writes) return;
+  std::string air_file;
+  if (simulation.fluid()) air_file = simulation.fluid()->write(folder.string(), "air", count);
+  together(comm, [&] {
+    if (!writes) return;
+    if (!air_file.empty())
+      air_pvd->add(simulation.time(), std::filesystem::path(air_file).filename().string());
+    write_seeds(simulation, count);
+  });
+}
+
+void Recorder::write_seeds(const Simulation& simulation, unsigned int count) {
   std::vector<Vec3> position, velocity, spin;
   simulation.dem().positions(position);
   simulation.dem().velocities(velocity);
@@ -127,7 +141,7 @@ void Recorder::write_fields(Simulation& simulation) {
       .add("angular velocity", spin)
       .add("seed", seed)
       .write(folder / name);
-  seeds_pvd->add(time, name);
+  seeds_pvd->add(simulation.time(), name);
 }
 
 }  // namespace seedflow

@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "seedflow/base/interrupt.h"
+#include "seedflow/base/together.h"
+#include "seedflow/experiment/agreement.h"
 #include "seedflow/experiment/recorder.h"
 #include "seedflow/output/checkpoint.h"
 #include "seedflow/output/folder.h"
@@ -44,11 +46,62 @@ void save_state(const Simulation& simulation, const Tally& tally, const Paramete
 
 Tally load_state(Simulation& simulation, const Parameters& parameters, const std::filesystem::path& folder) {
   CheckpointReader checkpoint(folder, simulation.communicator());
-  checkpoint.require_same_parameters(as_text(parameters), {"Run/"});
+  checkpoint.require_same_parameters(as_text(parameters),
+                                     {"Run/End time", "Run/Series interval", "Run/Checkpoint interval"});
   simulation.load(checkpoint.stream("seeds"), checkpoint.stream("air"), checkpoint.stream("coupling"));
   Tally tally;
   checkpoint.stream("run").read(reinterpret_cast<char*>(&tally), sizeof tally);
   return tally;
+}
+
+/// A run that is not resumed begins with no state of an earlier one, which a later --resume would take for
+/// its own.
+void remove_old_states(const std::filesystem::path& folder, MPI_Comm comm) {
+  together(comm, [&] {
+    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0) return;
+    for (const char* name : {"checkpoint", "failed"}) std::filesystem::remove_all(folder / name);
+  });
+}
+
+/// The number of steps which a run that goes on at `time` has behind it.
+long steps_done(double time, double dt, const Parameters& parameters) {
+  const double steps = time / dt;
+  const long whole = std::lround(steps);
+  if (std::abs(steps - whole) > 1e-6)
+    parameters.reject("Run/End time",
+                      "the checkpoint at " + std::to_string(time) +
+                          " s does not lie between two of the equal air steps up to this time",
+                      "choose a multiple of the air step");
+  return whole;
+}
+
+/// Where the ranks find each other when one of them may have failed alone and the others wait elsewhere.
+class Meeting {
+ public:
+  explicit Meeting(MPI_Comm comm) { MPI_Comm_dup(comm, &own); }
+  ~Meeting() {
+    if (complete) MPI_Comm_free(&own);  // waits for all
+  }
+  Meeting(const Meeting&) = delete;
+  Meeting& operator=(const Meeting&) = delete;
+  bool all_arrive() { return complete = all_ranks_arrive(own, 10.0 /* s */); }
+
+ private:
+  MPI_Comm own;
+  bool complete = true;
+};
+
+/// Saves the state at a failure, to look at; apart from the checkpoints, which are sound. Returns what to
+/// tell the user; nothing that goes wrong here may hide the failure itself.
+std::string save_failed_state(const Simulation& simulation, const Tally& tally, const Parameters& parameters,
+                              const std::filesystem::path& folder, Meeting& meeting) {
+  if (!meeting.all_arrive()) return "";
+  try {
+    save_state(simulation, tally, parameters, folder);
+    return "\nThe state at the failure is saved in '" + folder.string() + "'.";
+  } catch (const std::exception& error) {
+    return std::string("\nThe state at the failure could not be saved: ") + error.what();
+  }
 }
 
 void add_performance(const Simulation& simulation, const Tally& tally, double air_steps, Summary& summary) {
@@ -87,22 +140,32 @@ void run_to_end(Simulation& simulation, const Parameters& parameters, const RunO
   const long n_steps = std::max(1L, std::lround(std::ceil(run.end_time / run.air_step - 1e-9)));
   const double dt = run.end_time / n_steps;
 
+  Meeting meeting(comm);
+  InterruptGuard signals(comm);
   Tally tally;
   std::optional<double> resumed;
   if (options.resume) {
     tally = load_state(simulation, parameters, folder / "checkpoint");
     resumed = simulation.time();
+    if (*resumed > run.end_time * (1 + 1e-9))
+      parameters.reject("Run/End time", "the checkpoint is at " + std::to_string(*resumed) + " s already",
+                        "choose a later time");
+  } else {
+    remove_old_states(folder, comm);
   }
-  if (rank == 0) write_file_atomically(folder / "used.prm", as_text(parameters));
+  const long first_step = resumed ? steps_done(*resumed, dt, parameters) : 0;
+  together(comm, [&] {
+    if (rank == 0) write_file_atomically(folder / "used.prm", as_text(parameters));
+  });
   Recorder recorder(simulation, folder, resumed);
   if (!resumed) recorder.record(simulation);
 
-  InterruptGuard signals(comm);
   Progress progress("simulated", run.end_time, simulation.time(), rank);
-  Clock::time_point begin = Clock::now(), last_checkpoint = begin;
+  const Clock::time_point begin = Clock::now();
+  Clock::time_point last_checkpoint = begin;
   const double time_before = tally.wall_time;
-  const long first_step = std::lround(simulation.time() / dt);
   try {
+    signals.check();
     for (long step = first_step; step < n_steps; ++step) {
       simulation.advance(dt);
       if (Fluid<3>* air = simulation.fluid())
@@ -125,12 +188,16 @@ void run_to_end(Simulation& simulation, const Parameters& parameters, const RunO
           "\nInterrupted at t = %g s. The checkpoint is written; continue with --resume --output %s\n",
           simulation.time(), folder.c_str());
     throw;
-  } catch (const RunError&) {
-    // The state at the failure, to look at; apart from the checkpoints, which are sound.
-    save_state(simulation, tally, parameters, folder / "failed");
+  } catch (const RunError& error) {
+    throw RunError(error.what() +
+                   save_failed_state(simulation, tally, parameters, folder / "failed", meeting));
+  } catch (const std::exception&) {
+    save_failed_state(simulation, tally, parameters, folder / "failed", meeting);
     throw;
   }
   progress.finish();
+  // A finished run can be continued to a later end.
+  save_state(simulation, tally, parameters, folder / "checkpoint");
   add_performance(simulation, tally, static_cast<double>(n_steps), summary);
   add_conservation(simulation, tally.largest_mass_error, summary);
 }

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "seedflow/base/interrupt.h"
 #include "seedflow/experiment/run_loop.h"
 #include "seedflow/experiment/settling_reference.h"
 #include "seedflow/output/folder.h"
@@ -189,6 +190,7 @@ int run_settling(const RunOptions& options) {
   const MPI_Comm comm = MPI_COMM_WORLD;
   const bool writes = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
   if (!options.dry_run) prepare_output_folder(options.output);
+  const InterruptGuard signals(comm);  // a signal during the set-up is seen before the first step
   Simulation simulation(p, comm);
   if (options.dry_run) {
     if (writes) std::cout << simulation.describe() << std::flush;

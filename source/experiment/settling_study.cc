@@ -161,6 +161,7 @@ int run_settling_study(const RunOptions& options) {
   const int rank = dealii::Utilities::MPI::this_mpi_process(comm);
   const std::vector<SettlingCase> cases = all_cases(input.study);
 
+  const InterruptGuard signals(comm);  // also while the cases are built
   // All cases are built once before the first runs, so that bad input is found now.
   for (const SettlingCase& c : cases) {
     SimulationParameters p = input.base;

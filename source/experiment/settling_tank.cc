@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <sstream>
 
+#include "seedflow/base/interrupt.h"
 #include "seedflow/experiment/measurements.h"
 #include "seedflow/experiment/run_loop.h"
 #include "seedflow/experiment/settling.h"
 #include "seedflow/experiment/settling_reference.h"
+#include "seedflow/output/checkpoint.h"
 #include "seedflow/output/folder.h"
 #include "seedflow/output/report.h"
 
@@ -128,6 +131,61 @@ void write_report(const std::vector<Comparison>& all, const RunOptions& options)
   report.write(std::filesystem::path(options.output) / "report.html");
 }
 
+/// One condition ready to run. Bound to its Parameters, so it must not move.
+struct TankCase {
+  TankCase(const Condition& c, const std::string& conditions_file, const RunOptions& all)
+      : condition(c), options(all) {
+    input.declare(parameters);
+    std::vector<std::string> overrides = condition.overrides;
+    overrides.insert(overrides.end(), all.overrides.begin(), all.overrides.end());
+    try {
+      parameters.read(all.prm, overrides);
+      input.simulation.check(parameters);
+    } catch (const InputError& error) {
+      throw InputError(conditions_file + ", condition \"" + condition.name + "\": " + error.what());
+    }
+    options.output = (std::filesystem::path(all.output) / condition.name).string();
+  }
+  TankCase(const TankCase&) = delete;
+  TankCase& operator=(const TankCase&) = delete;
+
+  Condition condition;
+  RunOptions options;
+  TankInput input;
+  Parameters parameters;
+};
+
+/// Every measured value is one this experiment produces, under a condition that exists, and every condition
+/// was measured.
+void require_conditions(const std::vector<Measurement>& data, const std::vector<Condition>& conditions,
+                        const TankInput& base) {
+  for (const Measurement& m : data) {
+    const std::string where = base.measurements + ":" + std::to_string(m.line) + ": ";
+    if (m.quantity != "velocity" || m.unit != "m/s" || m.coordinate_unit != "s")
+      throw InputError(where + "this experiment produces the quantity velocity [m/s] over time [s], not " +
+                       m.quantity + " [" + m.unit + "] over [" + m.coordinate_unit + "].");
+    if (!(m.coordinate >= 0))
+      throw InputError(where + "a velocity needs its time as coordinate, in s after the release.");
+    if (std::none_of(conditions.begin(), conditions.end(),
+                     [&](const Condition& c) { return c.name == m.condition; }))
+      throw InputError(where + "there is no condition \"" + m.condition + "\" in " + base.conditions + ".");
+  }
+  for (const Condition& c : conditions)
+    if (std::none_of(data.begin(), data.end(), [&](const Measurement& m) { return m.condition == c.name; }))
+      throw InputError(base.conditions + ": nothing was measured under the condition \"" + c.name + "\"; " +
+                       base.measurements + " does not name it. Remove it or add its measurements.");
+}
+
+void require_within_run(const std::vector<Measurement>& data, const TankInput& input,
+                        const std::string& condition, const std::string& file) {
+  const double end = input.simulation.run.end_time;
+  for (const Measurement& m : data)
+    if (m.condition == condition && m.coordinate > end * (1 + 1e-9))
+      throw InputError(file + ":" + std::to_string(m.line) + ": measured at " + std::to_string(m.coordinate) +
+                       " s, but the run of this condition ends at " + std::to_string(end) +
+                       " s. Raise Run/End time or remove the point.");
+}
+
 }  // namespace
 
 int run_settling_tank(const RunOptions& options) {
@@ -139,54 +197,52 @@ int run_settling_tank(const RunOptions& options) {
   base_parameters.read(options.prm, options.overrides);
   const std::vector<Measurement> data = read_measurements(base.measurements);
   const std::vector<Condition> conditions = read_conditions(base.conditions);
-  for (const Measurement& m : data) {
-    const std::string where = base.measurements + ":" + std::to_string(m.line) + ": ";
-    if (m.quantity != "velocity" || m.unit != "m/s" || m.coordinate_unit != "s")
-      throw InputError(where + "this experiment produces the quantity velocity [m/s] over time [s], not " +
-                       m.quantity + " [" + m.unit + "] over [" + m.coordinate_unit + "].");
-    if (std::none_of(conditions.begin(), conditions.end(),
-                     [&](const Condition& c) { return c.name == m.condition; }))
-      throw InputError(where + "there is no condition \"" + m.condition + "\" in " + base.conditions + ".");
+  require_conditions(data, conditions, base);
+
+  // All conditions are checked before the first one runs.
+  const InterruptGuard signals(comm);
+  std::vector<std::unique_ptr<TankCase>> cases;
+  bool begun = false;
+  for (const Condition& condition : conditions) {
+    cases.push_back(std::make_unique<TankCase>(condition, base.conditions, options));
+    TankCase& one = *cases.back();
+    require_within_run(data, one.input, condition.name, base.measurements);
+    const Simulation check(one.input.simulation, comm);
+    if (options.dry_run && writes) std::cout << condition.name << "\n" << check.describe() << std::endl;
+    begun = begun || checkpoint_exists(std::filesystem::path(one.options.output) / "checkpoint");
   }
+  if (options.dry_run) return exit_done;
+  if (options.resume && !begun)
+    throw InputError("There is no checkpoint in '" + options.output +
+                     "' to resume from. Check the output folder, or start without --resume.");
 
   Summary summary;
   summary.text("experiment", base.name);
   std::vector<Comparison> comparisons;
   Summary::Performance total;
-  for (const Condition& condition : conditions) {
-    TankInput input;
-    Parameters parameters;
-    input.declare(parameters);
-    std::vector<std::string> overrides = condition.overrides;
-    overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-    parameters.read(options.prm, overrides);
-    input.simulation.check(parameters);
-    RunOptions one = options;
-    one.output = (std::filesystem::path(options.output) / condition.name).string();
-    Simulation simulation(input.simulation, comm);
-    if (options.dry_run) {
-      if (writes) std::cout << condition.name << "\n" << simulation.describe() << std::endl;
-      continue;
-    }
-    prepare_output_folder(one.output);
+  for (const auto& one : cases) {
+    prepare_output_folder(one->options.output);
+    one->options.resume =
+        options.resume && checkpoint_exists(std::filesystem::path(one->options.output) / "checkpoint");
+    Simulation simulation(one->input.simulation, comm);
     Summary part;
-    run_to_end(simulation, parameters, one, part);
+    run_to_end(simulation, one->parameters, one->options, part);
     for (const auto& b : part.balances())
-      summary.conserve(condition.name + ": " + b.name, b.relative_error, b.limit);
+      summary.conserve(one->condition.name + ": " + b.name, b.relative_error, b.limit);
     total.wall_time_s += part.performance.wall_time_s;
     total.peak_memory_MiB = std::max(total.peak_memory_MiB, part.performance.peak_memory_MiB);
     total.cell_steps_per_second_per_core = part.performance.cell_steps_per_second_per_core;
     total.sub_sphere_steps_per_second_per_core = part.performance.sub_sphere_steps_per_second_per_core;
     if (!writes) continue;
-    comparisons.push_back(
-        compare(condition, data, read_series(std::filesystem::path(one.output) / "seeds.csv"), input));
+    comparisons.push_back(compare(one->condition, data,
+                                  read_series(std::filesystem::path(one->options.output) / "seeds.csv"),
+                                  one->input));
     const Comparison& c = comparisons.back();
     summary.observe(c.name + ": peak velocity", c.peak_simulated, "m/s");
     summary.observe(c.name + ": measured peak velocity", c.peak_measured, "m/s");
     summary.observe(c.name + ": rms difference / peak, away from the floor", c.rms, "1");
     summary.observe(c.name + ": rms difference / peak, near the floor", c.rms_near_floor, "1");
   }
-  if (options.dry_run) return exit_done;
   summary.performance = total;
   if (writes) {
     summary.write(std::filesystem::path(options.output) / "summary.json");

@@ -59,6 +59,13 @@ void SimulationParameters::declare(Parameters& p) {
 
 void SimulationParameters::check(const Parameters& p) {
   effects.prepare();
+  seeds.model.check(p, "Seeds", SeedTemplateParameters());
+  if (seeds.model.shape == "csv") {  // the template states what is entered otherwise
+    const SeedTemplate model = make_seed_template(seeds.model);
+    seeds.model.diameter = std::cbrt(6 / M_PI * model.seed_volume);
+    seeds.model.density = model.seed_density;
+    seeds.model.n_spheres = model.n_spheres();
+  }
   seeds.material.density = seeds.model.density;
   if (air_model == "navier-stokes") coupling.check(p);
   if (run.air_step > run.end_time) p.reject("Run/Air step", "it is longer than the run", "use a smaller one");

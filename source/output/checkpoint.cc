@@ -9,6 +9,7 @@
 
 #include "checksum_stream.h"
 #include "seedflow/base/error.h"
+#include "seedflow/base/together.h"
 #include "seedflow/output/folder.h"
 #include "seedflow/output/json.h"
 
@@ -36,28 +37,6 @@ void broadcast(std::string& text, int root, const Ranks& ranks) {
   MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG_LONG, root, ranks.comm);
   text.resize(length);
   MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, root, ranks.comm);
-}
-
-/// Runs `work` and lets a failure on one rank be the failure of all, so that none waits for the others
-/// forever.
-template <class Work>
-void together(const Ranks& ranks, Work&& work) {
-  enum Kind : char { none = '-', input = 'i', run = 'r' };
-  std::string failure(1, none);
-  try {
-    work();
-  } catch (const InputError& error) {
-    failure = static_cast<char>(input) + std::string(error.what());
-  } catch (const std::exception& error) {
-    failure = static_cast<char>(run) + std::string(error.what());
-  }
-  const int mine = failure[0] == none ? ranks.size : ranks.rank;
-  int first = 0;
-  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, ranks.comm);
-  if (first == ranks.size) return;
-  broadcast(failure, first, ranks);
-  if (failure[0] == input) throw InputError(failure.substr(1));
-  throw RunError(failure.substr(1));
 }
 
 std::string stream_file(const std::string& name, int rank) {
@@ -120,7 +99,7 @@ struct CheckpointWriter::Implementation {
   /// Closes this rank's files and tells rank 0 about them.
   void close_files() {
     Json list = Json::object();
-    together(ranks, [&] {
+    together(ranks.comm, [&] {
       for (auto& [name, file] : files) {
         file->stream.flush();
         const std::string reason = file->buffer.close();
@@ -159,7 +138,7 @@ CheckpointWriter::CheckpointWriter(const fs::path& folder, double time, const st
     : implementation(std::make_unique<Implementation>(folder, comm)) {
   Implementation& i = *implementation;
   std::string free_slot;
-  together(i.ranks, [&] {
+  together(i.ranks.comm, [&] {
     if (i.ranks.rank != 0) return;
     fs::create_directories(folder);
     free_slot = valid_slot(folder) == "a" ? "b" : "a";
@@ -195,7 +174,7 @@ void CheckpointWriter::commit() {
   i.committed = true;
   i.close_files();
   MPI_Barrier(i.ranks.comm);
-  together(i.ranks, [&] {
+  together(i.ranks.comm, [&] {
     if (i.ranks.rank == 0) i.publish();
   });
 }
@@ -232,7 +211,7 @@ CheckpointReader::CheckpointReader(const fs::path& folder, MPI_Comm comm)
     : implementation(std::make_unique<Implementation>(comm)) {
   Implementation& i = *implementation;
   std::string text, slot;
-  together(i.ranks, [&] {
+  together(i.ranks.comm, [&] {
     if (i.ranks.rank != 0) return;
     slot = valid_slot(folder);
     if (slot.empty())
@@ -243,7 +222,7 @@ CheckpointReader::CheckpointReader(const fs::path& folder, MPI_Comm comm)
   broadcast(slot, 0, i.ranks);
   broadcast(text, 0, i.ranks);
   i.slot = folder / slot;
-  together(i.ranks, [&] {
+  together(i.ranks.comm, [&] {
     i.manifest = Json::parse(text);
     if (const int version = i.manifest.at("version").get<int>(); version != format_version)
       throw InputError("The checkpoint in '" + folder.string() + "' has format " + std::to_string(version) +

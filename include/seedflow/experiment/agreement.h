@@ -17,4 +17,8 @@ namespace seedflow {
 int run_in_agreement(MPI_Comm communicator, const std::function<int()>& work, std::ostream& errors,
                      double patience = 10);
 
+/// Whether all ranks call this within `patience` seconds of each other. The communicator must be used for
+/// nothing else while one of the ranks may be on its way.
+bool all_ranks_arrive(MPI_Comm communicator, double patience);
+
 }  // namespace seedflow

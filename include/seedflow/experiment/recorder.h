@@ -10,8 +10,9 @@
 namespace seedflow {
 
 /// Writes what a coupled run produces while it runs:
-///   seeds.csv   time, and for every seed position, velocity, spin, force of the air, air velocity, void
-///   fraction seeds.pvd   sub-spheres for ParaView air.pvd     velocity, pressure, void fraction for ParaView
+///   seeds.csv   time; of every seed position, velocity, spin, force of the air, air velocity, void fraction
+///   seeds.pvd   sub-spheres for ParaView
+///   air.pvd     velocity, pressure, void fraction for ParaView
 ///   walls.vtp   the box
 /// Collective: all ranks call, rank 0 writes (the air's pieces are written by their owners).
 class Recorder {
@@ -24,10 +25,15 @@ class Recorder {
   void record(Simulation& simulation);
 
  private:
+  // On rank 0 only:
+  void open(const Simulation& simulation, std::optional<double> resume_time);
   void write_row(const Simulation& simulation);
+  void write_seeds(const Simulation& simulation, unsigned int count);
+  // On all:
   void write_fields(Simulation& simulation);
 
   std::filesystem::path folder;
+  MPI_Comm comm;
   bool writes;
   double series_interval, field_interval;
   long next_row = 0, next_field = 0;
