@@ -49,7 +49,7 @@ std::shared_ptr<dealii::FunctionParser<dim>> expression(const std::vector<std::s
   auto f = std::make_shared<dealii::FunctionParser<dim>>(values.size());
   try {
     f->initialize(dim == 2 ? "x,y,t" : "x,y,z,t", values, {{"pi", 3.14159265358979323846}}, true);
-    f->value(dealii::Point<dim>());
+    for (unsigned int c = 0; c < values.size(); ++c) f->value(dealii::Point<dim>(), c);
   } catch (const std::exception&) {
     std::string all;
     for (const auto& v : values) all += (all.empty() ? "" : ", ") + v;

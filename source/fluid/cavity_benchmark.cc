@@ -16,7 +16,7 @@ CavityBenchmark bench_cavity(int cells, int steps, double dt, const std::string&
   parameters.viscosity = 1e-3;
   parameters.backend = backend;
   parameters.pressure_tolerance = 1e-6;
-  parameters.momentum_tolerance = 1e-6;
+  parameters.momentum_tolerance = 1e-5;
   parameters.boundary_conditions = "top: moving wall, 1, 0, 0; *: wall";
   Fluid<3, 1> fluid(parameters, domain);
   const Exchange<3> nothing;

@@ -1,5 +1,8 @@
 #include "seedflow/fluid/krylov.h"
 
+#include <deal.II/base/mpi.h>
+
+#include <array>
 #include <cmath>
 
 namespace seedflow {
@@ -89,111 +92,157 @@ int conjugate_gradients(const SparseMatrix& matrix, Preconditioner& precondition
   }
 }
 
-int stabilized_biconjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner, int n_systems,
-                                     const std::vector<char>* const* fixed, NodalVector* const* x,
-                                     const NodalVector* const* b, double relative_tolerance, int max_iterations) {
-  constexpr int most = 3;
-  const SparsityStructure& s = matrix.structure();
-  const std::uint32_t n = s.n_owned();
-  const int m = n_systems;
-  std::vector<NodalVector> r(m, *x[0]), r0(m, *x[0]), p(m, *x[0]), v(m, *x[0]), t(m, *x[0]), y(m, *x[0]);
-  const auto multiply = [&](std::vector<NodalVector>& result, NodalVector* const* in) {
-    NodalVector* out[most];
-    for (int d = 0; d < m; ++d) {
-      in[d]->update_ghost_values();
-      out[d] = &result[d];
-    }
-    matrix.multiply(m, out, in);
-    for (int d = 0; d < m; ++d) {
-      in[d]->zero_out_ghost_values();
-      double* a = result[d].begin();
-      for (std::uint32_t i = 0; i < n; ++i)
-        if ((*fixed[d])[i]) a[i] = 0;
-    }
-  };
-  const auto precondition = [&](std::vector<NodalVector>& in) {
-    for (int d = 0; d < m; ++d) {
-      preconditioner.apply(y[d], in[d]);
-      double* a = y[d].begin();
-      for (std::uint32_t i = 0; i < n; ++i)
-        if ((*fixed[d])[i]) a[i] = 0;
-    }
-  };
-  NodalVector* y_pointers[most];
-  for (int d = 0; d < m; ++d) y_pointers[d] = &y[d];
+namespace {
 
-  double largest[2];  // residual over diagonal, solution
-  const auto measure = [&] {
-    largest[0] = largest[1] = 0;
-    bool finite = true;
-    for (int d = 0; d < m; ++d)
-      for (std::uint32_t i = 0; i < n; ++i) {
-        const double a = std::abs(r[d].local_element(i) / matrix.value[s.diagonal[i]]);
-        if (!(*fixed[d])[i]) {
-          finite = finite && std::isfinite(a);
-          largest[0] = std::max(largest[0], a);
-        }
-        largest[1] = std::max(largest[1], std::abs(x[d]->local_element(i)));
-      }
-    if (!finite) largest[0] = INFINITY;
-    MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, x[0]->get_mpi_communicator());
-  };
+/// The components of a node side by side (the fourth is padding): one pass over the matrix serves them all.
+typedef double Block __attribute__((vector_size(4 * sizeof(double))));
 
-  multiply(r, x);
-  for (int d = 0; d < m; ++d)
+Block block_abs(Block a) { return a < 0 ? -a : a; }
+Block block_max(Block a, Block b) { return a > b ? a : b; }
+
+class BlockSystem {
+ public:
+  BlockSystem(const SparseMatrix& a, Preconditioner& m, int n_components, const std::vector<char>* const* fixed,
+              const NodalVector& like)
+      : matrix(a),
+        preconditioner(m),
+        components(n_components),
+        n(a.structure().n_owned()),
+        n_local(n + a.structure().partitioner->n_ghost_indices()),
+        free(n),
+        inverse_diagonal(n),
+        exchange{like, like} {
     for (std::uint32_t i = 0; i < n; ++i) {
-      double& a = r[d].local_element(i);
-      a = (*fixed[d])[i] ? 0.0 : b[d]->local_element(i) - a;
-      r0[d].local_element(i) = a;
+      const double d = a.value[a.structure().diagonal[i]];
+      inverse_diagonal[i] = d != 0 ? 1 / d : 1;
+      for (int c = 0; c < components; ++c) free[i][c] = !(*fixed[c])[i];
     }
-  double rho[most] = {1, 1, 1}, alpha[most] = {1, 1, 1}, omega[most] = {1, 1, 1};
+  }
+  /// y = A x on free nodes, 0 elsewhere.
+  void multiply(Block* y, Block* x) {
+    const SparsityStructure& s = matrix.structure();
+    if (dealii::Utilities::MPI::n_mpi_processes(s.partitioner->get_mpi_communicator()) > 1)
+      for (int c = 0; c < components; ++c) {
+        unpack(x, c, exchange[0]);
+        exchange[0].update_ghost_values();
+        for (std::uint32_t i = n; i < n_local; ++i) x[i][c] = exchange[0].local_element(i);
+        exchange[0].zero_out_ghost_values();
+      }
+    const double* value = matrix.value.data();
+    for (std::uint32_t row = 0; row < n; ++row) {
+      Block sum{};
+      for (std::uint32_t k = s.row_start[row]; k < s.row_start[row + 1]; ++k) sum += value[k] * x[s.column[k]];
+      y[row] = sum * free[row];
+    }
+  }
+  void precondition(Block* z, const Block* r) {
+    if (preconditioner.is_diagonal()) {
+      for (std::uint32_t i = 0; i < n; ++i) z[i] = inverse_diagonal[i] * r[i];
+      return;
+    }
+    for (int c = 0; c < components; ++c) {
+      unpack(r, c, exchange[0]);
+      preconditioner.apply(exchange[1], exchange[0]);
+      for (std::uint32_t i = 0; i < n; ++i) z[i][c] = exchange[1].local_element(i) * free[i][c];
+    }
+  }
+  Block sum_ranks(Block a) const {
+    double s[4] = {a[0], a[1], a[2], a[3]};
+    seedflow::sum_ranks(s, 4, exchange[0]);
+    return Block{s[0], s[1], s[2], s[3]};
+  }
+  /// Largest residual over diagonal and largest solution, over nodes, components and ranks.
+  std::array<double, 2> measure(const Block* r, const Block* x) const {
+    Block residual{}, solution{};
+    bool finite = true;
+    Block check{};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Block a = inverse_diagonal[i] * r[i];
+      residual = block_max(block_abs(a), residual);
+      solution = block_max(block_abs(x[i]), solution);
+      check += a;  // a maximum ignores NaN, a sum does not
+    }
+    std::array<double, 2> result{};
+    for (int c = 0; c < components; ++c) {
+      finite = finite && std::isfinite(check[c]);
+      result[0] = std::max(result[0], residual[c]);
+      result[1] = std::max(result[1], solution[c]);
+    }
+    if (!finite) result[0] = INFINITY;
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), 2, MPI_DOUBLE, MPI_MAX, exchange[0].get_mpi_communicator());
+    return result;
+  }
+
+  const SparseMatrix& matrix;
+  Preconditioner& preconditioner;
+  const int components;
+  const std::uint32_t n, n_local;
+  std::vector<Block> free;  ///< 1 for free nodes, 0 for fixed ones
+
+ private:
+  void unpack(const Block* x, int c, NodalVector& v) const {
+    for (std::uint32_t i = 0; i < n; ++i) v.local_element(i) = x[i][c];
+  }
+  std::vector<double> inverse_diagonal;
+  NodalVector exchange[2];
+};
+
+}  // namespace
+
+int stabilized_biconjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner, int n_systems,
+                                     const std::vector<char>* const* fixed, NodalVector* const* solution,
+                                     const NodalVector* const* rhs, double relative_tolerance, int max_iterations) {
+  BlockSystem system(matrix, preconditioner, n_systems, fixed, *solution[0]);
+  const std::uint32_t n = system.n;
+  std::vector<Block> x(system.n_local), y(system.n_local), r(n), r0(n), p(n), v(n), t(n);
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (int c = 0; c < n_systems; ++c) x[i][c] = solution[c]->local_element(i);
+  system.multiply(r.data(), x.data());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    Block b{};
+    for (int c = 0; c < n_systems; ++c) b[c] = rhs[c]->local_element(i);
+    r0[i] = r[i] = (b - r[i]) * system.free[i];
+  }
+  Block rho{}, alpha{}, omega{};
   for (int iteration = 0;; ++iteration) {
-    measure();
-    if (!std::isfinite(largest[0])) return -1;
-    if (largest[0] <= relative_tolerance * largest[1]) return iteration;
-    if (iteration >= max_iterations) return -1;
-    double sums[2 * most] = {};
-    for (int d = 0; d < m; ++d)
-      for (std::uint32_t i = 0; i < n; ++i) sums[d] += r0[d].local_element(i) * r[d].local_element(i);
-    sum_ranks(sums, m, *x[0]);
-    for (int d = 0; d < m; ++d) {
-      const double beta = iteration == 0 || rho[d] == 0 ? 0 : sums[d] / rho[d] * (alpha[d] / omega[d]);
-      rho[d] = sums[d];
+    const auto [residual, largest] = system.measure(r.data(), x.data());
+    const bool done = residual <= relative_tolerance * largest;
+    if (done || !std::isfinite(residual) || iteration >= max_iterations) {
       for (std::uint32_t i = 0; i < n; ++i)
-        p[d].local_element(i) = r[d].local_element(i) +
-                                (iteration == 0 ? 0.0 : beta * (p[d].local_element(i) - omega[d] * v[d].local_element(i)));
+        for (int c = 0; c < n_systems; ++c) solution[c]->local_element(i) = x[i][c];
+      return done ? iteration : -1;
     }
-    precondition(p);
-    multiply(v, y_pointers);
-    for (int d = 0; d < m; ++d) {
-      sums[d] = 0;
-      for (std::uint32_t i = 0; i < n; ++i) sums[d] += r0[d].local_element(i) * v[d].local_element(i);
+    Block a{}, b{};
+    for (std::uint32_t i = 0; i < n; ++i) a += r0[i] * r[i];
+    const Block rho_new = system.sum_ranks(a);
+    // A zero denominator means that this component is solved already.
+    const Block denominator = rho * omega;
+    const Block beta = denominator != 0 ? rho_new * alpha / (denominator != 0 ? denominator : Block{} + 1) : Block{};
+    rho = rho_new;
+    for (std::uint32_t i = 0; i < n; ++i) p[i] = r[i] + beta * (p[i] - omega * v[i]);
+    system.precondition(y.data(), p.data());
+    system.multiply(v.data(), y.data());
+    a = Block{};
+    for (std::uint32_t i = 0; i < n; ++i) a += r0[i] * v[i];
+    a = system.sum_ranks(a);
+    alpha = a != 0 ? rho / (a != 0 ? a : Block{} + 1) : Block{};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      x[i] += alpha * y[i];
+      r[i] -= alpha * v[i];
     }
-    sum_ranks(sums, m, *x[0]);
-    for (int d = 0; d < m; ++d) {
-      alpha[d] = sums[d] != 0 ? rho[d] / sums[d] : 0;  // 0: this system is solved already
-      for (std::uint32_t i = 0; i < n; ++i) {
-        x[d]->local_element(i) += alpha[d] * y[d].local_element(i);
-        r[d].local_element(i) -= alpha[d] * v[d].local_element(i);
-      }
+    system.precondition(y.data(), r.data());
+    system.multiply(t.data(), y.data());
+    a = b = Block{};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      a += t[i] * r[i];
+      b += t[i] * t[i];
     }
-    precondition(r);
-    multiply(t, y_pointers);
-    for (int d = 0; d < m; ++d) {
-      sums[d] = sums[most + d] = 0;
-      for (std::uint32_t i = 0; i < n; ++i) {
-        sums[d] += t[d].local_element(i) * r[d].local_element(i);
-        sums[most + d] += t[d].local_element(i) * t[d].local_element(i);
-      }
-    }
-    sum_ranks(sums, 2 * most, *x[0]);
-    for (int d = 0; d < m; ++d) {
-      omega[d] = sums[most + d] > 0 ? sums[d] / sums[most + d] : 1;
-      if (sums[most + d] == 0) continue;
-      for (std::uint32_t i = 0; i < n; ++i) {
-        x[d]->local_element(i) += omega[d] * y[d].local_element(i);
-        r[d].local_element(i) -= omega[d] * t[d].local_element(i);
-      }
+    a = system.sum_ranks(a);
+    b = system.sum_ranks(b);
+    omega = b != 0 ? a / (b != 0 ? b : Block{} + 1) : Block{};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      x[i] += omega * y[i];
+      r[i] -= omega * t[i];
     }
   }
 }

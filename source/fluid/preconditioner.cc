@@ -19,6 +19,7 @@ class Jacobi : public Preconditioner {
     const double* in = r.begin();
     for (std::size_t i = 0; i < inverse.size(); ++i) out[i] = inverse[i] * in[i];
   }
+  bool is_diagonal() const override { return true; }
 
  private:
   std::vector<double> inverse;

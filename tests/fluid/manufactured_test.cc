@@ -53,10 +53,10 @@ TEST(Manufactured2d, OrdersModelB) {
 TEST(Manufactured3d, OrdersOnUniformMesh) { expect_orders<3>({}, 4, false, 0.3, 3); }
 TEST(Manufactured3d, OrdersWithHangingNodes) { expect_orders<3>({}, 4, true, 0.3, 3); }
 
-/// Quadratic elements on a mesh so fine that the error in space does not matter (16 times finer than needed).
+/// Quadratic elements and steps so large that the error in space, 3e-4, is far below that in time.
 TEST(Manufactured2d, SecondOrderInTime) {
-  const Result a = solve<2, 2>({}, 16, false, 0.5, 10), b = solve<2, 2>({}, 16, false, 0.5, 20);
-  EXPECT_GT(std::log2(a.velocity / b.velocity), 1.8) << a.velocity << " -> " << b.velocity;
+  const Result a = solve<2, 2>({}, 16, false, 0.5, 5), b = solve<2, 2>({}, 16, false, 0.5, 10);
+  EXPECT_GT(std::log2(a.velocity / b.velocity), 1.9) << a.velocity << " -> " << b.velocity;
   EXPECT_GT(std::log2(a.pressure / b.pressure), 1.0) << a.pressure << " -> " << b.pressure;
 }
 

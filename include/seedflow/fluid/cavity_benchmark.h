@@ -20,7 +20,7 @@ struct CavityBenchmark {
 };
 
 /// Unit cube at Re = 1000 with a lid of velocity 1, `cells` (a multiple of 8 refines p4est-like) per edge, convection
-/// implicit, pressure solved to 1e-6 of its right-hand side. The flow starts from rest; `steps` are timed after a few
+/// implicit, pressure solved to 1e-6 of its right-hand side, velocity to 1e-5 in every node. The flow starts from rest; `steps` are timed after a few
 /// that are not (first matrices and multigrid).
 CavityBenchmark bench_cavity(int cells, int steps, double dt, const std::string& backend, MPI_Comm comm);
 

@@ -16,6 +16,8 @@ class Preconditioner {
   /// `singular`: the matrix has the constants as null space; the preconditioner then ties one node down.
   virtual void build(const SparseMatrix& matrix, const std::vector<char>& fixed, bool singular) = 0;
   virtual void apply(NodalVector& z, const NodalVector& r) = 0;
+  /// The inverse diagonal, which solvers apply by themselves.
+  virtual bool is_diagonal() const { return false; }
 };
 
 enum class PreconditionerKind { jacobi, ilu, multigrid };
