@@ -13,13 +13,14 @@ namespace seedflow {
 namespace {
 
 const std::map<std::string, BoundaryType>& type_names() {
-  static const std::map<std::string, BoundaryType> names = {{"wall", BoundaryType::wall},
-                                                            {"moving wall", BoundaryType::moving_wall},
-                                                            {"velocity inlet", BoundaryType::velocity_inlet},
-                                                            {"pressure outlet", BoundaryType::pressure_outlet},
-                                                            {"pressure inlet", BoundaryType::pressure_inlet},
-                                                            {"slip", BoundaryType::slip},
-                                                            {"periodic", BoundaryType::periodic}};
+  static const std::map<std::string, BoundaryType> names = {
+      {"wall", BoundaryType::wall},
+      {"moving wall", BoundaryType::moving_wall},
+      {"velocity inlet", BoundaryType::velocity_inlet},
+      {"pressure outlet", BoundaryType::pressure_outlet},
+      {"pressure inlet", BoundaryType::pressure_inlet},
+      {"slip", BoundaryType::slip},
+      {"periodic", BoundaryType::periodic}};
   return names;
 }
 
@@ -130,20 +131,22 @@ void check_boundary_conditions(const BoundaryConditions<dim>& conditions, const 
     domain.side(name);
     const std::string where = "Air/Boundary conditions, side \"" + name + "\"";
     if ((c.type == BoundaryType::periodic) != domain.is_periodic(name))
-      throw InputError(where + (c.type == BoundaryType::periodic
-                                    ? ": periodic, but the domain does not join it to another side. Name the pair in "
-                                      "Air domain/Periodic sides."
-                                    : ": joined to another side by Air domain/Periodic sides; its type must be "
-                                      "periodic or left out."));
+      throw InputError(where +
+                       (c.type == BoundaryType::periodic
+                            ? ": periodic, but the domain does not join it to another side. Name the pair in "
+                              "Air domain/Periodic sides."
+                            : ": joined to another side by Air domain/Periodic sides; its type must be "
+                              "periodic or left out."));
     const bool needs_velocity = c.type == BoundaryType::moving_wall || c.type == BoundaryType::velocity_inlet;
-    const bool needs_pressure = c.type == BoundaryType::pressure_outlet || c.type == BoundaryType::pressure_inlet;
+    const bool needs_pressure =
+        c.type == BoundaryType::pressure_outlet || c.type == BoundaryType::pressure_inlet;
     if ((needs_velocity && !c.velocity) || (needs_pressure && !c.pressure))
       throw InputError(where + ": its " + (needs_velocity ? "velocity" : "pressure") + " is missing.");
   }
   for (const auto& [id, name] : domain.sides())
     if (!conditions.count(name) && !domain.is_periodic(name))
-      throw InputError("Air/Boundary conditions: side \"" + name +
-                       "\" has no condition. Add `" + name + ": wall` (or another type), or `*: wall` for all sides "
+      throw InputError("Air/Boundary conditions: side \"" + name + "\" has no condition. Add `" + name +
+                       ": wall` (or another type), or `*: wall` for all sides "
                        "not named.");
 }
 

@@ -13,18 +13,26 @@ namespace {
 
 int rank_of(BoundaryType type) {
   switch (type) {
-    case BoundaryType::wall: return 0;
-    case BoundaryType::moving_wall: return 1;
-    case BoundaryType::velocity_inlet: return 2;
-    case BoundaryType::slip: return 3;
-    case BoundaryType::pressure_inlet: return 4;
-    default: return 5;
+    case BoundaryType::wall:
+      return 0;
+    case BoundaryType::moving_wall:
+      return 1;
+    case BoundaryType::velocity_inlet:
+      return 2;
+    case BoundaryType::slip:
+      return 3;
+    case BoundaryType::pressure_inlet:
+      return 4;
+    default:
+      return 5;
   }
 }
 bool is_open(BoundaryType type) {
   return type == BoundaryType::pressure_inlet || type == BoundaryType::pressure_outlet;
 }
-bool gives_velocity(BoundaryType type) { return rank_of(type) <= 2; }
+bool gives_velocity(BoundaryType type) {
+  return rank_of(type) <= 2;
+}
 
 }  // namespace
 
@@ -84,7 +92,8 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
       if (type == BoundaryType::slip || type == BoundaryType::pressure_inlet)
         for (unsigned int q = 0; q < rule.size(); ++q)
           if (std::abs(values.normal_vector(q)[axis]) < 1 - 1e-9)
-            throw InputError("Air/Boundary conditions: side \"" + names[side] + "\" is not perpendicular to an axis; " +
+            throw InputError("Air/Boundary conditions: side \"" + names[side] +
+                             "\" is not perpendicular to an axis; " +
                              "slip and pressure inlet need that. Use a wall, or turn the mesh.");
       for (int i = 0; i < n; ++i) {
         if (!s.fe.has_support_on_face(i, f)) continue;
@@ -94,8 +103,7 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
         for (int d = 0; d < dim; ++d) {
           const bool decides = gives_velocity(type) || (type == BoundaryType::slip && d == axis) ||
                                (type == BoundaryType::pressure_inlet && d != axis);
-          if (decides &&
-              (chosen[d][node] < 0 || rank_of(type) < rank_of(condition[chosen[d][node]].type)))
+          if (decides && (chosen[d][node] < 0 || rank_of(type) < rank_of(condition[chosen[d][node]].type)))
             chosen[d][node] = side;
         }
         if (is_open(type)) chosen_pressure[node] = side;
@@ -117,7 +125,8 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
         }
         face.nearest.push_back(nearest);
       }
-      if (type == BoundaryType::velocity_inlet || type == BoundaryType::moving_wall) faces.push_back(std::move(face));
+      if (type == BoundaryType::velocity_inlet || type == BoundaryType::moving_wall)
+        faces.push_back(std::move(face));
     }
   }
   for (const auto& [key, normal] : sums)
@@ -171,7 +180,8 @@ std::pair<double, double> BoundaryData<dim, degree>::subtract_flux(const std::ar
         for (int d = 0; d < dim; ++d)
           velocity[d] += face.value[q * n + i] * u[d].local_element(space.node[(group * n + i) * W + lane]);
       double eps = 0;
-      for (int k = 0; k < n_q; ++k) eps += face.extrapolate[q * n_q + k] * void_fraction[group * n_q + k][lane];
+      for (int k = 0; k < n_q; ++k)
+        eps += face.extrapolate[q * n_q + k] * void_fraction[group * n_q + k][lane];
       if (!(eps > 0 && eps <= 1)) eps = void_fraction[group * n_q + face.nearest[q]][lane];
       const double flux = eps * (velocity * face.normal[q]);
       net += flux;

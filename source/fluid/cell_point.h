@@ -51,8 +51,8 @@ SEEDFLOW_INLINE Lanes length(const Lanes* v) {
 }
 
 template <int dim, int degree>
-SEEDFLOW_INLINE void gradient(const NodalSpace<dim, degree>& space, const CellPoint<dim>& at, int q, const Lanes* x,
-                              Lanes* g) {
+SEEDFLOW_INLINE void gradient(const NodalSpace<dim, degree>& space, const CellPoint<dim>& at, int q,
+                              const Lanes* x, Lanes* g) {
   Lanes reference[dim];
   for (int e = 0; e < dim; ++e) reference[e] = space.shape.interpolate(q, 1 + e, x);
   at.to_physical(reference, g);

@@ -25,7 +25,8 @@ void Fluid<dim, degree>::Implementation::set_up() {
   boundary = std::make_unique<BoundaryData<dim, degree>>(*space, domain, conditions);
   for (int d = 0; d < dim; ++d)
     for (NodalVector* v : {&fields.u[d], &fields.y[d], &u_before[d], &rhs[d]}) space->initialize(*v);
-  for (NodalVector* v : {&fields.p, &fields.phi, &phi_before, &scalar_rhs, &mass_defect}) space->initialize(*v);
+  for (NodalVector* v : {&fields.p, &fields.phi, &phi_before, &scalar_rhs, &mass_defect})
+    space->initialize(*v);
   for (PointField* f : {&fields.eps, &fields.eps_old, &fields.eps_older}) f->set_uniform(1.0);
   for (PointField* f : {&fields.beta, &fields.source}) f->set_uniform(0.0);
   const std::size_t points = space->n_groups * n_q;
@@ -34,9 +35,9 @@ void Fluid<dim, degree>::Implementation::set_up() {
   fields.theta.resize(points, 0.0);
   momentum_matrix = std::make_unique<SparseMatrix>(space->structure);
   pressure_matrix = std::make_unique<SparseMatrix>(space->structure);
-  momentum_preconditioner =
-      make_preconditioner(parameters.backend, parameters.momentum_preconditioner == "ilu" ? PreconditionerKind::ilu
-                                                                                         : PreconditionerKind::jacobi);
+  momentum_preconditioner = make_preconditioner(
+      parameters.backend,
+      parameters.momentum_preconditioner == "ilu" ? PreconditionerKind::ilu : PreconditionerKind::jacobi);
   pressure_preconditioner = make_preconditioner(parameters.backend, PreconditionerKind::multigrid);
   preconditioned_values.clear();
   pressure_matrix_valid = multigrid_valid = false;
@@ -59,8 +60,8 @@ void Fluid<dim, degree>::Implementation::restart_from_nodal_velocity() {
 }
 
 template <int dim, int degree>
-bool Fluid<dim, degree>::Implementation::load(const std::vector<double>& values, double when_empty, PointField& field,
-                                              const PointField& present) {
+bool Fluid<dim, degree>::Implementation::load(const std::vector<double>& values, double when_empty,
+                                              PointField& field, const PointField& present) {
   if (values.empty()) {
     const bool same = present.is_uniform() && present[0][0] == when_empty;
     field.set_uniform(when_empty);
@@ -84,7 +85,8 @@ bool Fluid<dim, degree>::Implementation::load(const std::vector<double>& values,
 }
 
 template <int dim, int degree>
-std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::Implementation::points(const PointField& field) const {
+std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::Implementation::points(
+    const PointField& field) const {
   std::vector<Vector> result(space->layout.size());
   for (std::size_t c = 0; c < space->place.size(); ++c) {
     const std::size_t group = space->place[c] / W, l = space->place[c] % W;
@@ -99,7 +101,8 @@ Fluid<dim, degree>::Fluid(const FluidParameters& p, Domain<dim>& domain)
     : Fluid(p, domain, parse_boundary_conditions(p.boundary_conditions, domain)) {}
 
 template <int dim, int degree>
-Fluid<dim, degree>::Fluid(const FluidParameters& p, Domain<dim>& domain, const BoundaryConditions<dim>& conditions)
+Fluid<dim, degree>::Fluid(const FluidParameters& p, Domain<dim>& domain,
+                          const BoundaryConditions<dim>& conditions)
     : implementation(std::make_unique<Implementation>(p, domain, conditions)) {}
 
 template <int dim, int degree>
@@ -113,7 +116,8 @@ const QuadratureLayout<dim>& Fluid<dim, degree>::layout() const {
 }
 
 template <int dim, int degree>
-void Fluid<dim, degree>::set_initial(double time, const std::function<Vector(const dealii::Point<dim>&)>& velocity,
+void Fluid<dim, degree>::set_initial(double time,
+                                     const std::function<Vector(const dealii::Point<dim>&)>& velocity,
                                      const std::function<double(const dealii::Point<dim>&)>& pressure,
                                      const std::vector<double>& void_fraction) {
   auto& s = *implementation;

@@ -7,11 +7,11 @@ namespace seedflow {
 
 namespace {
 
-/// Calls f(index in layout, lane, point, values) with nodal gradients evaluated at every quadrature point: values[c]
-/// is the gradient of component c.
+/// Calls f(index in layout, lane, point, values) with nodal gradients evaluated at every quadrature point:
+/// values[c] is the gradient of component c.
 template <int dim, int degree, std::size_t n_components, typename F>
-void for_each_gradient(const NodalSpace<dim, degree>& space, const std::array<const NodalVector*, n_components>& fields,
-                       const F& f) {
+void for_each_gradient(const NodalSpace<dim, degree>& space,
+                       const std::array<const NodalVector*, n_components>& fields, const F& f) {
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   for (std::size_t group = 0; group < space.n_groups; ++group) {
     Lanes x[n_components][n];
@@ -31,7 +31,8 @@ void for_each_gradient(const NodalSpace<dim, degree>& space, const std::array<co
 }
 
 template <int dim>
-std::array<const NodalVector*, std::size_t(dim)> pointers(const std::array<NodalVector, std::size_t(dim)>& v) {
+std::array<const NodalVector*, std::size_t(dim)> pointers(
+    const std::array<NodalVector, std::size_t(dim)>& v) {
   std::array<const NodalVector*, std::size_t(dim)> p;
   for (int d = 0; d < dim; ++d) p[d] = &v[d];
   return p;
@@ -71,11 +72,13 @@ std::vector<typename Fluid<dim, degree>::Vector> Fluid<dim, degree>::acceleratio
   const auto& s = *implementation;
   std::vector<Vector> result(s.space->layout.size());
   const double rate = s.steps_since_start > 0 ? 1 / s.dt_old : 0;
-  for_each_gradient(*s.space, pointers<dim>(s.fields.u), [&](std::size_t i, int l, std::size_t k, const auto& g) {
-    Vector u;
-    for (int d = 0; d < dim; ++d) u[d] = s.fields.u_old[k * dim + d][l];
-    for (int d = 0; d < dim; ++d) result[i][d] = (u[d] - s.fields.u_older[k * dim + d][l]) * rate + u * g[d];
-  });
+  for_each_gradient(*s.space, pointers<dim>(s.fields.u),
+                    [&](std::size_t i, int l, std::size_t k, const auto& g) {
+                      Vector u;
+                      for (int d = 0; d < dim; ++d) u[d] = s.fields.u_old[k * dim + d][l];
+                      for (int d = 0; d < dim; ++d)
+                        result[i][d] = (u[d] - s.fields.u_older[k * dim + d][l]) * rate + u * g[d];
+                    });
   return result;
 }
 
@@ -99,7 +102,8 @@ template <int dim, int degree>
 double Fluid<dim, degree>::bytes_per_cell() const {
   const auto& s = *implementation;
   const auto& f = s.fields;
-  double sum = s.space->bytes() + (s.momentum_matrix->value.size() * 2 + s.preconditioned_values.size()) * 8.0;
+  double sum =
+      s.space->bytes() + (s.momentum_matrix->value.size() * 2 + s.preconditioned_values.size()) * 8.0;
   for (const PointField* p :
        {&f.eps, &f.eps_old, &f.eps_older, &f.beta, &f.source, &f.u_old, &f.u_older, &f.theta})
     sum += p->bytes();
@@ -160,16 +164,16 @@ typename Fluid<dim, degree>::Errors Fluid<dim, degree>::errors(
   return {std::sqrt(sums[0]), std::sqrt(sums[1]), std::sqrt(std::max(0.0, sums[3] - mean_part))};
 }
 
-#define SEEDFLOW_FIELDS(dim, degree)                                                                        \
-  template std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::velocity() const;                        \
-  template std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::pressure_gradient() const;               \
-  template std::vector<Vec3> Fluid<dim, degree>::vorticity() const;                                         \
-  template std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::acceleration() const;                    \
-  template double Fluid<dim, degree>::courant_number(double) const;                                         \
-  template double Fluid<dim, degree>::bytes_per_cell() const;                                               \
-  template std::vector<double> Fluid<dim, degree>::velocity_jump() const;                                   \
-  template Fluid<dim, degree>::Errors Fluid<dim, degree>::errors(                                           \
-      const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>&,                              \
+#define SEEDFLOW_FIELDS(dim, degree)                                                          \
+  template std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::velocity() const;          \
+  template std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::pressure_gradient() const; \
+  template std::vector<Vec3> Fluid<dim, degree>::vorticity() const;                           \
+  template std::vector<dealii::Tensor<1, dim>> Fluid<dim, degree>::acceleration() const;      \
+  template double Fluid<dim, degree>::courant_number(double) const;                           \
+  template double Fluid<dim, degree>::bytes_per_cell() const;                                 \
+  template std::vector<double> Fluid<dim, degree>::velocity_jump() const;                     \
+  template Fluid<dim, degree>::Errors Fluid<dim, degree>::errors(                             \
+      const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>&,                \
       const std::function<double(const dealii::Point<dim>&)>&) const;
 SEEDFLOW_FIELDS(2, 1)
 SEEDFLOW_FIELDS(3, 1)

@@ -14,7 +14,8 @@ struct Fluid<dim, degree>::Implementation {
   using Components = typename FlowFields<dim>::Components;
   static constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q, W = lane_width;
 
-  Implementation(const FluidParameters& parameters, Domain<dim>& domain, const BoundaryConditions<dim>& conditions);
+  Implementation(const FluidParameters& parameters, Domain<dim>& domain,
+                 const BoundaryConditions<dim>& conditions);
 
   /// Everything that depends on the mesh; fields become zero.
   void set_up();
@@ -33,7 +34,8 @@ struct Fluid<dim, degree>::Implementation {
   double max(double a) const { return dealii::Utilities::MPI::max(a, domain.communicator()); }
 
   /// One value per quadrature point into the kernels' order. Returns whether anything differs from `present`.
-  bool load(const std::vector<double>& values, double when_empty, PointField& field, const PointField& present);
+  bool load(const std::vector<double>& values, double when_empty, PointField& field,
+            const PointField& present);
   std::vector<Vector> points(const PointField& field) const;
 
   const FluidParameters parameters;
@@ -44,7 +46,7 @@ struct Fluid<dim, degree>::Implementation {
   std::unique_ptr<BoundaryData<dim, degree>> boundary;
 
   FlowFields<dim> fields;
-  Components u_before;   ///< u~ of the step before the last, for the first guess
+  Components u_before;  ///< u~ of the step before the last, for the first guess
   NodalVector phi_before;
   Components rhs;
   NodalVector scalar_rhs, mass_defect;

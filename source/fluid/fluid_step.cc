@@ -8,7 +8,8 @@ namespace seedflow {
 template <int dim, int degree>
 void Fluid<dim, degree>::Implementation::fail(const std::string& what, const std::string& remedy) const {
   std::ostringstream message;
-  message << "Air, step from t = " << time << " s with dt = " << coefficients.time.dt << " s: " << what << " " << remedy;
+  message << "Air, step from t = " << time << " s with dt = " << coefficients.time.dt << " s: " << what << " "
+          << remedy;
   throw RunError(message.str());
 }
 
@@ -36,8 +37,9 @@ void Fluid<dim, degree>::Implementation::take(const Exchange<dim>& exchange) {
   } else {
     for (const auto* given : {&exchange.drag_source, &exchange.force})
       if (!given->empty() && given->size() != space->layout.size())
-        throw RunError("Air: forces are given for " + std::to_string(given->size()) + " quadrature points of " +
-                       std::to_string(space->layout.size()) + "; use Fluid::layout().");
+        throw RunError("Air: forces are given for " + std::to_string(given->size()) +
+                       " quadrature points of " + std::to_string(space->layout.size()) +
+                       "; use Fluid::layout().");
     if (fields.source.is_uniform()) fields.source.resize(points * dim, 0.0);
     for (std::size_t group = 0; group < space->n_groups; ++group)
       for (int l = 0; l < W; ++l)
@@ -60,7 +62,8 @@ void Fluid<dim, degree>::Implementation::take(const Exchange<dim>& exchange) {
     fail("the void fraction is outside (0, 1] at " + std::to_string(int(bad[0])) + " quadrature points.",
          "Widen the kernel of the void fraction or coarsen the air mesh.");
   if (bad[1] > 0)
-    fail("the drag coefficient is negative or not finite at " + std::to_string(int(bad[1])) + " quadrature points.",
+    fail("the drag coefficient is negative or not finite at " + std::to_string(int(bad[1])) +
+             " quadrature points.",
          "Check the drag law.");
   if (bad[2] > 0) fail("a force on the air is not finite.", "Check the effects that act on the seeds.");
 
@@ -108,9 +111,16 @@ void Fluid<dim, degree>::Implementation::solve_momentum() {
   statistics.momentum_iterations =
       stabilized_biconjugate_gradients(*momentum_matrix, *momentum_preconditioner, dim, fixed, x, b,
                                        parameters.momentum_tolerance, parameters.max_iterations);
-  if (statistics.momentum_iterations < 0)
-    fail("the momentum equation was not solved in " + std::to_string(parameters.max_iterations) + " iterations.",
+  if (statistics.momentum_iterations < 0) {
+    double bad = 0;
+    for (const auto& u : fields.u) bad += !std::isfinite(u.l1_norm());
+    if (bad > 0)
+      fail("the velocity is not finite.",
+           "Check that the boundary conditions give numbers at this time; reduce the time step.");
+    fail("the momentum equation was not solved in " + std::to_string(parameters.max_iterations) +
+             " iterations.",
          "Reduce the time step, or set Air/Linear solver/Momentum preconditioner to ilu.");
+  }
   for (auto& u : fields.u) {
     u.update_ghost_values();
     space->set_constrained(u);
@@ -138,7 +148,8 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
     imbalance = sum(imbalance);
     if (std::abs(imbalance) > 1e-8 * std::max(inflow, scale)) {
       std::ostringstream what;
-      what << "the domain is closed, but inflow and change of void volume differ by " << imbalance << " m3/s.";
+      what << "the domain is closed, but inflow and change of void volume differ by " << imbalance
+           << " m3/s.";
       fail(what.str(), "Give one side a pressure outlet.");
     }
   }
@@ -154,8 +165,8 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
     }
   }
   const CpuTimer timer(statistics.pressure_solve);
-  // Relative to the right-hand side of the equation for the whole pressure, |b + A p_old|, and to the flow through
-  // the cells, whichever is less; not below round-off of the latter.
+  // Relative to the right-hand side of the equation for the whole pressure, |b + A p_old|, and to the flow
+  // through the cells, whichever is less; not below round-off of the latter.
   fields.phi.zero_out_ghost_values();
   phi_before.zero_out_ghost_values();
   const auto& fixed = boundary->pressure_fixed;
@@ -176,8 +187,8 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
   for (const auto& node : boundary->fixed_pressure)
     fields.phi.local_element(node.node) -= fields.p.local_element(node.node);
   const auto solve = [&] {
-    return conjugate_gradients(*pressure_matrix, *pressure_preconditioner, fixed, singular, fields.phi, scalar_rhs,
-                               tolerance, parameters.max_iterations);
+    return conjugate_gradients(*pressure_matrix, *pressure_preconditioner, fixed, singular, fields.phi,
+                               scalar_rhs, tolerance, parameters.max_iterations);
   };
   int iterations = solve();
   if (iterations < 0 && !preconditioned_values.empty()) {  // the preconditioner belongs to an older matrix
@@ -192,7 +203,8 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
     iterations_when_built = -1;
   }
   if (iterations < 0)
-    fail("the pressure equation was not solved in " + std::to_string(parameters.max_iterations) + " iterations.",
+    fail("the pressure equation was not solved in " + std::to_string(parameters.max_iterations) +
+             " iterations.",
          "Check the void fraction for values near 0, reduce the time step, or try the other backend.");
   statistics.pressure_iterations = iterations;
   if (iterations_when_built < 0) iterations_when_built = iterations;
@@ -225,7 +237,8 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   // Momentum: reactions of given velocities, momentum through open sides, sums over all ranks at once.
   const std::size_t n_sides = boundary->names.size();
   std::vector<double> sums;
-  for (const auto* a : {integrals.change, integrals.exchange, integrals.pressure, integrals.share, integrals.momentum})
+  for (const auto* a :
+       {integrals.change, integrals.exchange, integrals.pressure, integrals.share, integrals.momentum})
     sums.insert(sums.end(), a, a + dim);
   std::vector<double> reaction(n_sides * dim, 0.0);
   for (int d = 0; d < dim; ++d) {
@@ -233,7 +246,8 @@ void Fluid<dim, degree>::Implementation::finish_step() {
       reaction[node.side * dim + d] +=
           momentum_matrix->row_times(node.node, fields.u[d]) - rhs[d].local_element(node.node);
     for (const auto& node : boundary->fixed_pressure)
-      reaction[node.side * dim + d] -= mass_defect.local_element(node.node) * fields.u[d].local_element(node.node);
+      reaction[node.side * dim + d] -=
+          mass_defect.local_element(node.node) * fields.u[d].local_element(node.node);
   }
   sums.insert(sums.end(), reaction.begin(), reaction.end());
   fields.p.zero_out_ghost_values();
@@ -242,7 +256,8 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   fields.p.update_ghost_values();
   for (const Vector& f : boundary->pressure_force(fields.p))
     for (int d = 0; d < dim; ++d) sums.push_back(f[d]);
-  for (const double a : {inflow, through_open_sides, integrals.growth, integrals.circulation, total}) sums.push_back(a);
+  for (const double a : {inflow, through_open_sides, integrals.growth, integrals.circulation, total})
+    sums.push_back(a);
   double volume = 0, p_sum = 0;
   if (!boundary->has_open_side)
     for (std::uint32_t i = 0; i < open.size(); ++i)

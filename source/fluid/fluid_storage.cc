@@ -31,8 +31,9 @@ std::size_t get_size(std::istream& in, std::size_t expected, const char* what) {
   std::size_t n = 0;
   get(in, n);
   if (n != expected)
-    throw RunError(std::string("Air: the saved state does not fit the mesh (") + what + " has " + std::to_string(n) +
-                   " values, " + std::to_string(expected) + " expected). Resume with the saved mesh and rank count.");
+    throw RunError(std::string("Air: the saved state does not fit the mesh (") + what + " has " +
+                   std::to_string(n) + " values, " + std::to_string(expected) +
+                   " expected). Resume with the saved mesh and rank count.");
   return n;
 }
 template <typename T>
@@ -152,7 +153,8 @@ void Fluid<dim, degree>::load(std::istream& in) {
   if (s.multigrid_valid) {
     // The same multigrid as before: of the matrix it was built from then.
     if (!current) value.swap(s.preconditioned_values);
-    s.pressure_preconditioner->build(*s.pressure_matrix, s.boundary->pressure_fixed, !s.boundary->has_open_side);
+    s.pressure_preconditioner->build(*s.pressure_matrix, s.boundary->pressure_fixed,
+                                     !s.boundary->has_open_side);
     if (!current) value.swap(s.preconditioned_values);
   }
 }
@@ -201,11 +203,11 @@ std::string Fluid<dim, degree>::write(const std::string& directory, const std::s
                                         s.domain.communicator(), 5);
 }
 
-#define SEEDFLOW_STORAGE(dim, degree)                                                                       \
-  template void Fluid<dim, degree>::refine(                                                                 \
-      const std::function<std::vector<double>(const QuadratureLayout<dim>&)>&);                             \
-  template void Fluid<dim, degree>::save(std::ostream&) const;                                              \
-  template void Fluid<dim, degree>::load(std::istream&);                                                    \
+#define SEEDFLOW_STORAGE(dim, degree)                                           \
+  template void Fluid<dim, degree>::refine(                                     \
+      const std::function<std::vector<double>(const QuadratureLayout<dim>&)>&); \
+  template void Fluid<dim, degree>::save(std::ostream&) const;                  \
+  template void Fluid<dim, degree>::load(std::istream&);                        \
   template std::string Fluid<dim, degree>::write(const std::string&, const std::string&, unsigned int) const;
 SEEDFLOW_STORAGE(2, 1)
 SEEDFLOW_STORAGE(3, 1)

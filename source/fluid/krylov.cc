@@ -15,8 +15,9 @@ void sum_ranks(double* a, int n, const NodalVector& v) {
 
 }  // namespace
 
-int conjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner, const std::vector<char>& fixed,
-                        bool singular, NodalVector& x, const NodalVector& b, double tolerance, int max_iterations) {
+int conjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner,
+                        const std::vector<char>& fixed, bool singular, NodalVector& x, const NodalVector& b,
+                        double tolerance, int max_iterations) {
   const std::uint32_t n = matrix.structure().n_owned();
   NodalVector r(x), z(x), p(x), q(x);
   double n_free = 0;
@@ -50,8 +51,8 @@ int conjugate_gradients(const SparseMatrix& matrix, Preconditioner& precondition
   };
   true_residual();
   double rz_old = 0;
-  // The residual of the recurrence drifts from the true one by round-off of the largest intermediate x, which matters
-  // when coefficients span many orders of magnitude: the method then starts again from the true one.
+  // The residual of the recurrence drifts from the true one by round-off of the largest intermediate x, which
+  // matters when coefficients span many orders of magnitude: the method then starts again from the true one.
   constexpr int most_restarts = 3;
   int restarts = 0, first = 0;
   for (int iteration = 0;; ++iteration) {
@@ -97,13 +98,17 @@ namespace {
 /// The components of a node side by side (the fourth is padding): one pass over the matrix serves them all.
 typedef double Block __attribute__((vector_size(4 * sizeof(double))));
 
-Block block_abs(Block a) { return a < 0 ? -a : a; }
-Block block_max(Block a, Block b) { return a > b ? a : b; }
+Block block_abs(Block a) {
+  return a < 0 ? -a : a;
+}
+Block block_max(Block a, Block b) {
+  return a > b ? a : b;
+}
 
 class BlockSystem {
  public:
-  BlockSystem(const SparseMatrix& a, Preconditioner& m, int n_components, const std::vector<char>* const* fixed,
-              const NodalVector& like)
+  BlockSystem(const SparseMatrix& a, Preconditioner& m, int n_components,
+              const std::vector<char>* const* fixed, const NodalVector& like)
       : matrix(a),
         preconditioner(m),
         components(n_components),
@@ -131,7 +136,8 @@ class BlockSystem {
     const double* value = matrix.value.data();
     for (std::uint32_t row = 0; row < n; ++row) {
       Block sum{};
-      for (std::uint32_t k = s.row_start[row]; k < s.row_start[row + 1]; ++k) sum += value[k] * x[s.column[k]];
+      for (std::uint32_t k = s.row_start[row]; k < s.row_start[row + 1]; ++k)
+        sum += value[k] * x[s.column[k]];
       y[row] = sum * free[row];
     }
   }
@@ -189,9 +195,10 @@ class BlockSystem {
 
 }  // namespace
 
-int stabilized_biconjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner, int n_systems,
-                                     const std::vector<char>* const* fixed, NodalVector* const* solution,
-                                     const NodalVector* const* rhs, double relative_tolerance, int max_iterations) {
+int stabilized_biconjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner,
+                                     int n_systems, const std::vector<char>* const* fixed,
+                                     NodalVector* const* solution, const NodalVector* const* rhs,
+                                     double relative_tolerance, int max_iterations) {
   BlockSystem system(matrix, preconditioner, n_systems, fixed, *solution[0]);
   const std::uint32_t n = system.n;
   std::vector<Block> x(system.n_local), y(system.n_local), r(n), r0(n), p(n), v(n), t(n);
@@ -217,7 +224,8 @@ int stabilized_biconjugate_gradients(const SparseMatrix& matrix, Preconditioner&
     const Block rho_new = system.sum_ranks(a);
     // A zero denominator means that this component is solved already.
     const Block denominator = rho * omega;
-    const Block beta = denominator != 0 ? rho_new * alpha / (denominator != 0 ? denominator : Block{} + 1) : Block{};
+    const Block beta =
+        denominator != 0 ? rho_new * alpha / (denominator != 0 ? denominator : Block{} + 1) : Block{};
     rho = rho_new;
     for (std::uint32_t i = 0; i < n; ++i) p[i] = r[i] + beta * (p[i] - omega * v[i]);
     system.precondition(y.data(), p.data());

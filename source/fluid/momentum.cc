@@ -53,8 +53,9 @@ void project_pressure_gradient(const NodalSpace<dim, degree>& space, const StepC
 }
 
 template <int dim, int degree>
-void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficients& c, FlowFields<dim>& fields,
-                       SparseMatrix& matrix, typename FlowFields<dim>::Components& rhs, NodalVector* mass_defect) {
+void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficients& c,
+                       FlowFields<dim>& fields, SparseMatrix& matrix,
+                       typename FlowFields<dim>::Components& rhs, NodalVector* mass_defect) {
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   const auto& shape = space.shape;
   const TimeScheme& time = c.time;
@@ -99,8 +100,9 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
       for (int d = 0; d < dim; ++d) {
         const Lanes projected = shape.interpolate(q, 0, y[d]);
         const Lanes felt = share * g[d] * (1.0 - theta) + m * theta * projected;
-        const Lanes f = at.weight * (fields.source[k * dim + d] - felt -
-                                     rate * (old * fields.u_old[k * dim + d] + older * fields.u_older[k * dim + d]));
+        const Lanes f =
+            at.weight * (fields.source[k * dim + d] - felt -
+                         rate * (old * fields.u_old[k * dim + d] + older * fields.u_older[k * dim + d]));
         load[d][q][0] = f;
         for (int e = 0; e < dim; ++e) load[d][q][1 + e] = upwind[q] * w_ref[q][e] * f;
       }

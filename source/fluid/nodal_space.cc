@@ -40,8 +40,8 @@ void NodalSpace<dim, degree>::number_nodes(const Domain<dim>& domain) {
   constraints.reinit(relevant);
   dealii::DoFTools::make_hanging_node_constraints(dofs, constraints);
   for (const auto& p : domain.periodicities())
-    dealii::DoFTools::make_periodicity_constraints(dofs, domain.side(p.first), domain.side(p.second), p.direction,
-                                                   constraints);
+    dealii::DoFTools::make_periodicity_constraints(dofs, domain.side(p.first), domain.side(p.second),
+                                                   p.direction, constraints);
   constraints.make_consistent_in_parallel(owned, constraints.get_local_lines(), domain.communicator());
   constraints.close();
   // Masters of constrained nodes may lie beyond the cells next to this rank (chains across periodic sides).
@@ -65,7 +65,8 @@ void NodalSpace<dim, degree>::number_nodes(const Domain<dim>& domain) {
     if (const auto* entries = constraints.get_constraint_entries(i)) {
       Line line{partitioner.global_to_local(i), {}};
       constrained[line.node] = 1;
-      for (const auto& [master, weight] : *entries) line.entries.emplace_back(partitioner.global_to_local(master), weight);
+      for (const auto& [master, weight] : *entries)
+        line.entries.emplace_back(partitioner.global_to_local(master), weight);
       lines.push_back(line);
     }
 }
@@ -84,8 +85,8 @@ void NodalSpace<dim, degree>::group_cells(const Domain<dim>& domain) {
     if (c->is_locally_owned()) number[c->active_cell_index()] = count++;
   std::vector<dealii::types::global_dof_index> ids(n);
   for (const auto& c : domain.cells_in_z_order()) {
-    const typename dealii::DoFHandler<dim>::active_cell_iterator d(&domain.triangulation(), c->level(), c->index(),
-                                                                   &dofs);
+    const typename dealii::DoFHandler<dim>::active_cell_iterator d(&domain.triangulation(), c->level(),
+                                                                   c->index(), &dofs);
     d->get_dof_indices(ids);
     Member m{number[c->active_cell_index()], {}};
     bool is_free = true;
@@ -142,8 +143,8 @@ void NodalSpace<dim, degree>::group_cells(const Domain<dim>& domain) {
       c.weight.assign(n * m, 0.0);
       for (int i = 0; i < n; ++i)
         for (const auto& e : expansion[i])
-          c.weight[i * m + (std::lower_bound(c.masters.begin(), c.masters.end(), e.first) - c.masters.begin())] +=
-              e.second;
+          c.weight[i * m + (std::lower_bound(c.masters.begin(), c.masters.end(), e.first) -
+                            c.masters.begin())] += e.second;
       for (const auto row : c.masters)
         for (const auto column : c.masters) c.positions.push_back(structure->position(row, column));
     }
@@ -152,9 +153,9 @@ void NodalSpace<dim, degree>::group_cells(const Domain<dim>& domain) {
 template <int dim, int degree>
 void NodalSpace<dim, degree>::compute_geometry(const Domain<dim>& domain) {
   const dealii::QGauss<dim> rule(degree + 1);
-  dealii::FEValues<dim> values(domain.mapping(), fe, rule,
-                               dealii::update_inverse_jacobians | dealii::update_JxW_values |
-                                   dealii::update_quadrature_points);
+  dealii::FEValues<dim> values(
+      domain.mapping(), fe, rule,
+      dealii::update_inverse_jacobians | dealii::update_JxW_values | dealii::update_quadrature_points);
   layout.n_cells = place.size();
   layout.n_q = n_q;
   layout.position.resize(place.size() * n_q);
@@ -277,9 +278,11 @@ template <int dim, int degree>
 double NodalSpace<dim, degree>::bytes() const {
   double sum = (node.size() + cell.size() + place.size() + position.size() + first_jacobian.size()) * 4.0 +
                used.size() + jacobian_stride.size() + constrained.size() + jacobian.size() * sizeof(Lanes) +
-               layout.JxW.size() * 8.0 + layout.position.size() * 8.0 * dim + layout.cell_volume.size() * 8.0 +
-               structure->column.size() * 4.0 + structure->row_start.size() * 8.0 + dofs.memory_consumption();
-  for (const auto& c : constrained_cells) sum += (c.masters.size() + c.positions.size()) * 4.0 + c.weight.size() * 8.0;
+               layout.JxW.size() * 8.0 + layout.position.size() * 8.0 * dim +
+               layout.cell_volume.size() * 8.0 + structure->column.size() * 4.0 +
+               structure->row_start.size() * 8.0 + dofs.memory_consumption();
+  for (const auto& c : constrained_cells)
+    sum += (c.masters.size() + c.positions.size()) * 4.0 + c.weight.size() * 8.0;
   return sum;
 }
 

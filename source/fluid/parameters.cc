@@ -8,18 +8,22 @@ void FluidParameters::declare(Parameters& p) {
   p.number("Dynamic viscosity", viscosity, "Pa s", Range::positive(), "Dynamic viscosity of the air.");
   p.choice("Formulation", formulation, {"A", "B"},
            "A: air and seeds share the pressure gradient by volume; B: all of it acts on the air.");
-  p.text("Boundary conditions", boundary_conditions,
-         "Entries `side: type, values` separated by semicolons. Types: wall; moving wall, u; velocity inlet, u; "
-         "pressure outlet, p; pressure inlet, p; slip; periodic. Values are numbers or expressions in x, y, z, t; "
-         "`*` stands for all sides not named.");
+  p.text(
+      "Boundary conditions", boundary_conditions,
+      "Entries `side: type, values` separated by semicolons. Types: wall; moving wall, u; velocity inlet, u; "
+      "pressure outlet, p; pressure inlet, p; slip; periodic. Values are numbers or expressions in x, y, z, "
+      "t; "
+      "`*` stands for all sides not named.");
   p.number("Pressure stabilization", pressure_stabilization, "1", Range::between(0, 1),
            "Factor on the stabilisation of the pressure by orthogonal subscales.");
-  p.number("Streamline upwinding", streamline_upwinding, "1", Range::between(0, 10), "Factor on the SUPG time scale.");
+  p.number("Streamline upwinding", streamline_upwinding, "1", Range::between(0, 10),
+           "Factor on the SUPG time scale.");
   const auto solver = p.section("Linear solver", "How the linear systems of a step are solved.");
   p.choice("Backend", backend, {"trilinos", "petsc"},
            "trilinos: algebraic multigrid ML, Ifpack; petsc: BoomerAMG of hypre, PETSc's ILU.");
   p.choice("Momentum preconditioner", momentum_preconditioner, {"jacobi", "ilu"},
-           "jacobi is fastest while the Courant number is around 1; ilu (by the backend) for large steps or strong "
+           "jacobi is fastest while the Courant number is around 1; ilu (by the backend) for large steps or "
+           "strong "
            "viscosity.");
   p.number("Pressure tolerance", pressure_tolerance, "1", {1e-15, 0.1},
            "Residual over right-hand side of the pressure equation.");

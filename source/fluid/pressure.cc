@@ -63,7 +63,8 @@ double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoe
       for (int d = 0; d < dim; ++d)
         velocity[d] = shape.interpolate(q, 0, u[d]) - theta * (kappa * g[d] - shape.interpolate(q, 0, y[d]));
       load[q][0] = -at.weight *
-                   (c.time.now * eps + c.time.old * fields.eps_old[k] + c.time.older * fields.eps_older[k]) / c.time.dt;
+                   (c.time.now * eps + c.time.old * fields.eps_old[k] + c.time.older * fields.eps_older[k]) /
+                   c.time.dt;
       at.to_reference(velocity, load[q] + 1);
       flow += at.weight * eps * length<dim>(load[q] + 1);
       growth += load[q][0];
@@ -141,12 +142,12 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
   return result;
 }
 
-#define SEEDFLOW_PRESSURE(dim, degree)                                                                             \
-  template void assemble_pressure_matrix(const NodalSpace<dim, degree>&, const StepCoefficients&,                  \
-                                         const FlowFields<dim>&, SparseMatrix&);                                   \
-  template double assemble_pressure_rhs(const NodalSpace<dim, degree>&, const StepCoefficients&,                   \
-                                        const FlowFields<dim>&, NodalVector&);                                     \
-  template StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>&, const StepCoefficients&,            \
+#define SEEDFLOW_PRESSURE(dim, degree)                                                                  \
+  template void assemble_pressure_matrix(const NodalSpace<dim, degree>&, const StepCoefficients&,       \
+                                         const FlowFields<dim>&, SparseMatrix&);                        \
+  template double assemble_pressure_rhs(const NodalSpace<dim, degree>&, const StepCoefficients&,        \
+                                        const FlowFields<dim>&, NodalVector&);                          \
+  template StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>&, const StepCoefficients&, \
                                                FlowFields<dim>&, NodalVector&);
 SEEDFLOW_PRESSURE(2, 1)
 SEEDFLOW_PRESSURE(3, 1)

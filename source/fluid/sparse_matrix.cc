@@ -24,7 +24,8 @@ SparsityStructure::SparsityStructure(dealii::DynamicSparsityPattern& pattern, co
 
   dealii::IndexSet ghosts = relevant;
   for (const global_dof_index row : owned)
-    for (unsigned int k = 0; k < pattern.row_length(row); ++k) ghosts.add_index(pattern.column_number(row, k));
+    for (unsigned int k = 0; k < pattern.row_length(row); ++k)
+      ghosts.add_index(pattern.column_number(row, k));
   ghosts.subtract_set(owned);
   partitioner = std::make_shared<dealii::Utilities::MPI::Partitioner>(owned, ghosts, comm);
 
@@ -38,7 +39,8 @@ SparsityStructure::SparsityStructure(dealii::DynamicSparsityPattern& pattern, co
   std::vector<global_dof_index> columns;
   for (const global_dof_index row : owned) {
     columns.clear();
-    for (unsigned int k = 0; k < pattern.row_length(row); ++k) columns.push_back(pattern.column_number(row, k));
+    for (unsigned int k = 0; k < pattern.row_length(row); ++k)
+      columns.push_back(pattern.column_number(row, k));
     append(columns);
   }
   for (const global_dof_index row : ghosts) append(foreign[row]);
@@ -53,7 +55,8 @@ SparsityStructure::SparsityStructure(dealii::DynamicSparsityPattern& pattern, co
     const std::uint32_t local = n_owned() + k, begin = row_start[local], end = row_start[local + 1];
     const unsigned int rank = owner[k++];
     if (begin == end) continue;
-    if (sent.empty() || sent.back().rank != static_cast<int>(rank)) sent.push_back({static_cast<int>(rank), begin, end, {}});
+    if (sent.empty() || sent.back().rank != static_cast<int>(rank))
+      sent.push_back({static_cast<int>(rank), begin, end, {}});
     sent.back().end = end;
     auto& list = outgoing[rank];
     list.push_back(row);
@@ -77,7 +80,9 @@ std::uint32_t SparsityStructure::position(std::uint32_t row, std::uint32_t col) 
 SparseMatrix::SparseMatrix(std::shared_ptr<const SparsityStructure> structure)
     : value(structure->column.size()), shape(std::move(structure)) {}
 
-void SparseMatrix::set_zero() { std::fill(value.begin(), value.end(), 0.0); }
+void SparseMatrix::set_zero() {
+  std::fill(value.begin(), value.end(), 0.0);
+}
 
 void SparseMatrix::compress() {
   const MPI_Comm comm = shape->partitioner->get_mpi_communicator();

@@ -3,8 +3,8 @@
 #include <Epetra_MpiComm.h>
 #include <Epetra_Vector.h>
 #include <Ifpack_ILU.h>
-#include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#include <Teuchos_ParameterList.hpp>
 
 #include "seedflow/base/error.h"
 #include "seedflow/fluid/preconditioner.h"
@@ -61,15 +61,16 @@ class Trilinos : public Preconditioner {
     list.set("ML output", 0);
     list.set("aggregation: type", "Uncoupled");
     list.set("aggregation: threshold", 1e-4);
-    list.set("smoother: type", "Chebyshev");
-    list.set("smoother: sweeps", 2);
+    list.set("smoother: type", "symmetric Gauss-Seidel");
+    list.set("smoother: sweeps", 1);
     list.set("coarse: type", "Amesos-KLU");
     list.set("coarse: max size", 500);
     list.set("eigen-analysis: type", "Anorm");
     multigrid.reset();
     multigrid = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*matrix, list, true);
     if (!multigrid->IsPreconditionerComputed())
-      throw RunError("Air: ML could not build the multigrid preconditioner of the pressure. Try backend petsc.");
+      throw RunError(
+          "Air: ML could not build the multigrid preconditioner of the pressure. Try backend petsc.");
   }
 
   void apply(NodalVector& z, const NodalVector& r) override {

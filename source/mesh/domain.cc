@@ -40,9 +40,10 @@ std::map<dealii::types::boundary_id, std::string> physical_names(const std::stri
     }
   }
   if (names.empty())
-    throw InputError("Mesh file \"" + file +
-                     "\" names no sides. Give every side of the air domain a Physical Surface (in 2D a Physical "
-                     "Curve) with a name, and the volume a Physical Volume, and write it as ASCII.");
+    throw InputError(
+        "Mesh file \"" + file +
+        "\" names no sides. Give every side of the air domain a Physical Surface (in 2D a Physical "
+        "Curve) with a name, and the volume a Physical Volume, and write it as ASCII.");
   return names;
 }
 
@@ -58,18 +59,20 @@ std::map<dealii::types::boundary_id, std::string> names_of_box() {
 
 void DomainParameters::declare(Parameters& p) {
   const auto section = p.section("Air domain", "The space filled by air and its mesh.");
-  p.text("Mesh file", mesh_file, "Gmsh .msh file (ASCII) whose physical groups name the sides; empty: a box.");
+  p.text("Mesh file", mesh_file,
+         "Gmsh .msh file (ASCII) whose physical groups name the sides; empty: a box.");
   p.vector("Lower corner", lower, "m", Range::any(), "Corner of the box with the smallest coordinates.");
   p.vector("Upper corner", upper, "m", Range::any(), "Corner of the box with the largest coordinates.");
-  p.numbers("Cells", cells, "1", Range::between(1, 100000), "Cells of the box per direction before refinement.");
+  p.numbers("Cells", cells, "1", Range::between(1, 100000),
+            "Cells of the box per direction before refinement.");
   p.integer("Refinements", refinements, Range::between(0, 12), "Uniform refinements of the whole mesh.");
   p.texts("Periodic sides", periodic, "Pairs of opposite sides joined to one another, each like left-right.");
 }
 
 template <int dim>
 Domain<dim>::Domain(const DomainParameters& p, MPI_Comm comm)
-    : mesh(std::make_unique<Triangulation>(
-          comm, dealii::Triangulation<dim>::limit_level_difference_at_vertices)) {
+    : mesh(std::make_unique<Triangulation>(comm,
+                                           dealii::Triangulation<dim>::limit_level_difference_at_vertices)) {
   if (!p.mesh_file.empty()) {
     side_names = physical_names(p.mesh_file, dim);
     const auto coarse = std::make_shared<dealii::Triangulation<dim>>();
@@ -79,15 +82,17 @@ Domain<dim>::Domain(const DomainParameters& p, MPI_Comm comm)
       reader.read_msh(in);
     } catch (const std::exception& e) {
       throw InputError("Mesh file \"" + p.mesh_file + "\" is not a mesh of " +
-                       (dim == 2 ? "quadrilaterals" : "hexahedra") + " in Gmsh's ASCII format 2 or 4: " + e.what());
+                       (dim == 2 ? "quadrilaterals" : "hexahedra") +
+                       " in Gmsh's ASCII format 2 or 4: " + e.what());
     }
     build_coarse = [coarse](Triangulation& m) { m.copy_triangulation(*coarse); };
   } else {
     std::vector<unsigned int> n;
     dealii::Point<dim> a, b;
     if (p.cells.size() != dim)
-      throw InputError("Air domain/Cells: " + std::to_string(dim) + " whole numbers are needed, one per direction; " +
-                       std::to_string(p.cells.size()) + " given.");
+      throw InputError("Air domain/Cells: " + std::to_string(dim) +
+                       " whole numbers are needed, one per direction; " + std::to_string(p.cells.size()) +
+                       " given.");
     for (int d = 0; d < dim; ++d) {
       a[d] = p.lower[d];
       b[d] = p.upper[d];
@@ -95,11 +100,14 @@ Domain<dim>::Domain(const DomainParameters& p, MPI_Comm comm)
         throw InputError("Air domain/Cells: " + std::to_string(p.cells[d]) + " is not a whole number >= 1.");
       n.push_back(static_cast<unsigned int>(p.cells[d]));
       if (!(b[d] > a[d]))
-        throw InputError("Air domain/Upper corner must lie above Lower corner in every direction; direction " +
-                         std::to_string(d) + " has " + std::to_string(a[d]) + " to " + std::to_string(b[d]) + " m.");
+        throw InputError(
+            "Air domain/Upper corner must lie above Lower corner in every direction; direction " +
+            std::to_string(d) + " has " + std::to_string(a[d]) + " to " + std::to_string(b[d]) + " m.");
     }
     side_names = names_of_box<dim>();
-    build_coarse = [=](Triangulation& m) { dealii::GridGenerator::subdivided_hyper_rectangle(m, n, a, b, true); };
+    build_coarse = [=](Triangulation& m) {
+      dealii::GridGenerator::subdivided_hyper_rectangle(m, n, a, b, true);
+    };
   }
   build_coarse(*mesh);
   name_periodic_sides(p.periodic);
@@ -112,7 +120,8 @@ template <int dim>
 Domain<dim>::Domain(const dealii::Triangulation<dim>& given,
                     const std::map<dealii::types::boundary_id, std::string>& names,
                     const std::vector<std::string>& periodic, MPI_Comm comm)
-    : mesh(std::make_unique<Triangulation>(comm, dealii::Triangulation<dim>::limit_level_difference_at_vertices)),
+    : mesh(std::make_unique<Triangulation>(comm,
+                                           dealii::Triangulation<dim>::limit_level_difference_at_vertices)),
       side_names(names) {
   const auto coarse = std::make_shared<dealii::Triangulation<dim>>();
   coarse->copy_triangulation(given);
@@ -195,8 +204,8 @@ void Domain<dim>::require_cells_for_all_ranks() const {
   const auto cells = mesh->n_global_active_cells();
   const unsigned int ranks = dealii::Utilities::MPI::n_mpi_processes(communicator());
   if (dealii::Utilities::MPI::min(mesh->n_locally_owned_active_cells(), communicator()) == 0)
-    throw InputError("The air mesh has " + std::to_string(cells) + " cells, too few for " + std::to_string(ranks) +
-                     " ranks. Use fewer ranks (--mpi) or a finer mesh.");
+    throw InputError("The air mesh has " + std::to_string(cells) + " cells, too few for " +
+                     std::to_string(ranks) + " ranks. Use fewer ranks (--mpi) or a finer mesh.");
 }
 
 template <int dim>

@@ -9,8 +9,8 @@ namespace seedflow {
 
 namespace {
 
-/// The largest criterion of each owned cell relative to its threshold, by the void fraction: within the cell, and
-/// between its mean and those of its neighbours.
+/// The largest criterion of each owned cell relative to its threshold, by the void fraction: within the cell,
+/// and between its mean and those of its neighbours.
 template <int dim>
 std::vector<double> void_fraction_contrast(const Domain<dim>& domain, const QuadratureLayout<dim>& layout,
                                            const std::vector<double>& eps) {
@@ -28,7 +28,8 @@ std::vector<double> void_fraction_contrast(const Domain<dim>& domain, const Quad
   }
   using Cell = typename Domain<dim>::Triangulation::active_cell_iterator;
   dealii::GridTools::exchange_cell_data_to_ghosts<double>(
-      mesh, [&](const Cell& cell) { return dealii::std_cxx17::optional<double>(mean[cell->active_cell_index()]); },
+      mesh,
+      [&](const Cell& cell) { return dealii::std_cxx17::optional<double>(mean[cell->active_cell_index()]); },
       [&](const Cell& cell, const double& value) { mean[cell->active_cell_index()] = value; });
   c = 0;
   for (const auto& cell : mesh.active_cell_iterators()) {
@@ -56,8 +57,8 @@ template <int dim>
 double distance(const dealii::Point<dim>& x, const dealii::BoundingBox<dim>& box) {
   double square = 0;
   for (int d = 0; d < dim; ++d) {
-    const double outside =
-        std::max({0.0, box.get_boundary_points().first[d] - x[d], x[d] - box.get_boundary_points().second[d]});
+    const double outside = std::max(
+        {0.0, box.get_boundary_points().first[d] - x[d], x[d] - box.get_boundary_points().second[d]});
     square += outside * outside;
   }
   return std::sqrt(square);
@@ -66,12 +67,14 @@ double distance(const dealii::Point<dim>& x, const dealii::BoundingBox<dim>& box
 }  // namespace
 
 void RefinementParameters::declare(Parameters& p) {
-  const auto section = p.section("Adaptive refinement", "Where and when the air mesh is refined during the run.");
+  const auto section =
+      p.section("Adaptive refinement", "Where and when the air mesh is refined during the run.");
   p.integer("Interval", interval, Range::between(0, 1000000), "Air steps between two adaptations; 0: never.");
   p.integer("Lowest level", min_level, Range::between(0, 12), "Refinements every cell has at least.");
   p.integer("Highest level", max_level, Range::between(0, 12), "Refinements a cell has at most.");
   p.number("Void fraction jump", void_fraction_jump, "1", Range::between(0, 1),
-           "Cells with a larger difference of void fraction within them or to a neighbour are refined; 0: not used.");
+           "Cells with a larger difference of void fraction within them or to a neighbour are refined; 0: "
+           "not used.");
   p.number("Velocity jump", velocity_jump, "m/s", Range::non_negative(),
            "Cells with a larger difference of velocity within them are refined; 0: not used.");
   p.number("Seed distance", seed_distance, "m", Range::non_negative(),
@@ -83,11 +86,12 @@ bool flag_cells(const RefinementParameters& p, Domain<dim>& domain, const Quadra
                 const std::vector<double>& void_fraction, const std::vector<double>& velocity_jump,
                 const std::vector<dealii::Point<dim>>& seeds) {
   if (p.min_level > p.max_level)
-    throw InputError("Adaptive refinement: Lowest level " + std::to_string(p.min_level) + " is above Highest level " +
-                     std::to_string(p.max_level) + ". Exchange them.");
+    throw InputError("Adaptive refinement: Lowest level " + std::to_string(p.min_level) +
+                     " is above Highest level " + std::to_string(p.max_level) + ". Exchange them.");
   if ((!void_fraction.empty() && void_fraction.size() != layout.size()) ||
       (!velocity_jump.empty() && velocity_jump.size() != layout.n_cells))
-    throw RunError("Adaptive refinement: the fields given do not belong to the present mesh; use Fluid::layout().");
+    throw RunError(
+        "Adaptive refinement: the fields given do not belong to the present mesh; use Fluid::layout().");
   const bool by_eps = p.void_fraction_jump > 0 && !void_fraction.empty();
   const bool by_velocity = p.velocity_jump > 0 && !velocity_jump.empty();
   const bool by_seeds = p.seed_distance > 0;

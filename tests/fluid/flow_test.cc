@@ -22,20 +22,25 @@ void expect_balanced(const Fluid<dim, 1>& fluid) {
   EXPECT_LT(fluid.momentum_balance().residual, 1e-8);
 }
 
-/// u = 4 y (1 - y), dp/dx = -8 mu: nodally exact on uniform Q1 elements except for the midpoint rule of the parabola.
+/// u = 4 y (1 - y), dp/dx = -8 mu: nodally exact on uniform Q1 elements except for the midpoint rule of the
+/// parabola.
 TEST(Flow, PoiseuilleFromVelocityInletToPressureOutlet) {
   DomainParameters box;
   box.cells = {12, 16};
   box.upper = {2, 1, 0};
   Domain<2> domain(box, MPI_COMM_WORLD);
-  Fluid<2> fluid(parameters("left: velocity inlet, 4*y*(1-y), 0; right: pressure outlet, 3; *: wall"), domain);
+  Fluid<2> fluid(parameters("left: velocity inlet, 4*y*(1-y), 0; right: pressure outlet, 3; *: wall"),
+                 domain);
   const Exchange<2> nothing;
   for (int s = 0; s < 60; ++s) {
     fluid.advance(0.2, nothing);
     expect_balanced(fluid);
   }
-  const auto e = fluid.errors([](const auto& x) { return dealii::Tensor<1, 2>({4 * x[1] * (1 - x[1]), 0}); },
-                              [](const auto& x) { return 3 + 0.8 * (2 - x[0]); });
+  const auto e = fluid.errors(
+      [](const auto& x) {
+        return dealii::Tensor<1, 2>({4 * x[1] * (1 - x[1]), 0});
+      },
+      [](const auto& x) { return 3 + 0.8 * (2 - x[0]); });
   EXPECT_LT(e.nodal_velocity, 0.005);  // interpolation error h^2/8 |u''| = 0.0039 at most
   EXPECT_LT(e.pressure, 0.02);         // 1 % of the pressure difference 1.6 over an area of 2
   // Forces on the air: steady, so the shear of both walls, 2 * mu * |du/dy| * L = 1.6, balances the pressure.
@@ -53,8 +58,11 @@ TEST(Flow, PoiseuilleFromPressureInlet) {
   Fluid<2> fluid(parameters("left: pressure inlet, 1.6; right: pressure outlet, 0; *: wall"), domain);
   for (int s = 0; s < 80; ++s) fluid.advance(0.2, {});
   expect_balanced(fluid);
-  const auto e = fluid.errors([](const auto& x) { return dealii::Tensor<1, 2>({4 * x[1] * (1 - x[1]), 0}); },
-                              [](const auto& x) { return 0.8 * (2 - x[0]); });
+  const auto e = fluid.errors(
+      [](const auto& x) {
+        return dealii::Tensor<1, 2>({4 * x[1] * (1 - x[1]), 0});
+      },
+      [](const auto& x) { return 0.8 * (2 - x[0]); });
   EXPECT_LT(e.nodal_velocity, 0.015);
   EXPECT_LT(e.pressure, 0.02);
 }
@@ -64,39 +72,48 @@ TEST(Flow, CouettePeriodic) {
   const auto domain = unit_box<3>(4, true, {"left-right", "front-back"});
   Fluid<3> fluid(parameters("bottom: wall; top: moving wall, 1, 0.5, 0"), *domain);
   for (int s = 0; s < 150; ++s) fluid.advance(0.2, {});
-  const auto e = fluid.errors([](const auto& x) { return dealii::Tensor<1, 3>({x[2], 0.5 * x[2], 0}); },
-                              [](const auto&) { return 0.0; });
+  const auto e = fluid.errors(
+      [](const auto& x) {
+        return dealii::Tensor<1, 3>({x[2], 0.5 * x[2], 0});
+      },
+      [](const auto&) { return 0.0; });
   EXPECT_LT(e.velocity, 1e-8);
   EXPECT_LT(e.pressure, 1e-8);
   EXPECT_NEAR(fluid.momentum_balance().reaction.at("top")[0], 0.1, 1e-8);  // mu du/dz times area
 }
 
-/// Uniform flow through inlet, outlet, slip sides and hanging nodes, in air with a void fraction that jumps nowhere
-/// but is below one: nothing may disturb it.
+/// Uniform flow through inlet, outlet, slip sides and hanging nodes, in air with a void fraction that jumps
+/// nowhere but is below one: nothing may disturb it.
 TEST(Flow, FreeStreamIsPreserved) {
   for (const std::string formulation : {"A", "B"}) {
     const auto domain = unit_box<3>(4, true);
-    FluidParameters p =
-        parameters("left: velocity inlet, 1, 0, 0; right: pressure outlet, 0; *: slip", 1e-3);
+    FluidParameters p = parameters("left: velocity inlet, 1, 0, 0; right: pressure outlet, 0; *: slip", 1e-3);
     p.formulation = formulation;
     Fluid<3> fluid(p, *domain);
     Exchange<3> exchange;
     exchange.void_fraction.assign(fluid.layout().size(), 0.6);
     fluid.set_initial(
-        0, [](const auto&) { return dealii::Tensor<1, 3>({1, 0, 0}); }, [](const auto&) { return 0.0; },
-        exchange.void_fraction);
+        0,
+        [](const auto&) {
+          return dealii::Tensor<1, 3>({1, 0, 0});
+        },
+        [](const auto&) { return 0.0; }, exchange.void_fraction);
     for (int s = 0; s < 5; ++s) fluid.advance(0.1, exchange);
-    const auto e = fluid.errors([](const auto&) { return dealii::Tensor<1, 3>({1, 0, 0}); },
-                                [](const auto&) { return 0.0; });
+    const auto e = fluid.errors(
+        [](const auto&) {
+          return dealii::Tensor<1, 3>({1, 0, 0});
+        },
+        [](const auto&) { return 0.0; });
     EXPECT_LT(e.velocity, 1e-9);
     EXPECT_LT(e.pressure, 1e-9);
     expect_balanced(fluid);
   }
 }
 
-/// Darcy flow through a bed whose drag and void fraction jump between two cells: u = Q/eps, dp/dx = -beta u / c.
-/// With the strongest drag the pressure is 4e7 Pa in the bed. Its round-off of about 1e-8 Pa is felt by the free air in
-/// the cell beside it as a velocity of dt/rho grad p = 3e-8 m/s: mass is kept to 1e-5 then, instead of 1e-8.
+/// Darcy flow through a bed whose drag and void fraction jump between two cells: u = Q/eps, dp/dx = -beta u /
+/// c. With the strongest drag the pressure is 4e7 Pa in the bed. Its round-off of about 1e-8 Pa is felt by
+/// the free air in the cell beside it as a velocity of dt/rho grad p = 3e-8 m/s: mass is kept to 1e-5 then,
+/// instead of 1e-8.
 TEST(Flow, BedWithSharpFront) {
   for (const double beta : {1e2, 1e5, 1e8}) {
     DomainParameters box;
@@ -131,8 +148,9 @@ TEST(Flow, BedWithSharpFront) {
   }
 }
 
-/// A ball of low void fraction moves through a closed box of still air: void volume is kept, so mass must be too, and
-/// the air must flow back by as much volume as the ball carries forward, int eps u = -int (1 - eps) v.
+/// A ball of low void fraction moves through a closed box of still air: void volume is kept, so mass must be
+/// too, and the air must flow back by as much volume as the ball carries forward, int eps u = -int (1 - eps)
+/// v.
 TEST(Flow, MovingBallInClosedBox) {
   const auto domain = unit_box<2>(16, true);
   Fluid<2> fluid(parameters("*: wall", 1e-2), *domain);
@@ -210,7 +228,11 @@ TEST(Flow, VortexLeavesThroughOutlet) {
     fluid.advance(0.02, {});
     expect_balanced(fluid);
   }
-  const auto e = fluid.errors([](const auto&) { return dealii::Tensor<1, 2>({1, 0}); }, [](const auto&) { return 0.0; });
+  const auto e = fluid.errors(
+      [](const auto&) {
+        return dealii::Tensor<1, 2>({1, 0});
+      },
+      [](const auto&) { return 0.0; });
   EXPECT_LT(e.velocity, 0.3);  // the vortex itself had a velocity of 2
 }
 

@@ -6,10 +6,10 @@
 
 namespace seedflow {
 
-/// A flow that solves the volume-averaged equations with a force made for it, in the closed unit square or cube:
-/// the void fraction varies in space and time, eps u = curl(psi) + grad(chi) with laplace(chi) = -d(eps)/dt has no
-/// component across the boundary. The force comes from fourth-order differences (error below 1e-7), not from the
-/// solver's own formulas.
+/// A flow that solves the volume-averaged equations with a force made for it, in the closed unit square or
+/// cube: the void fraction varies in space and time, eps u = curl(psi) + grad(chi) with laplace(chi) =
+/// -d(eps)/dt has no component across the boundary. The force comes from fourth-order differences (error
+/// below 1e-7), not from the solver's own formulas.
 template <int dim>
 struct Manufactured {
   using Vector = dealii::Tensor<1, dim>;
@@ -28,7 +28,8 @@ struct Manufactured {
     const double g = 1 + 0.5 * std::sin(omega * t);
     double z = 1;
     if (dim == 3) z = std::cos(pi * x[dim - 1]);
-    const double sx = std::sin(pi * x[0]), cx = std::cos(pi * x[0]), sy = std::sin(pi * x[1]), cy = std::cos(pi * x[1]);
+    const double sx = std::sin(pi * x[0]), cx = std::cos(pi * x[0]), sy = std::sin(pi * x[1]),
+                 cy = std::cos(pi * x[1]);
     Vector f;
     f[0] = g * z * sx * sx * sy * cy;
     f[1] = -g * z * sx * cx * sy * sy;
@@ -66,7 +67,8 @@ struct Manufactured {
             return eps(a, t) * (density * u[d] * u - viscosity * slope);
           },
           h);
-      f[d] += (model_a ? eps(x, t) : 1.0) * difference([&](double s) { return pressure(shifted(x, d, s), t); }, h);
+      f[d] += (model_a ? eps(x, t) : 1.0) *
+              difference([&](double s) { return pressure(shifted(x, d, s), t); }, h);
     }
     return f + drag * velocity(x, t);
   }
@@ -119,7 +121,8 @@ struct Manufactured {
 
 /// A unit box of `cells` per edge; with `hanging`, the cells around the centre are refined once.
 template <int dim>
-std::unique_ptr<Domain<dim>> unit_box(int cells, bool hanging = false, const std::vector<std::string>& periodic = {}) {
+std::unique_ptr<Domain<dim>> unit_box(int cells, bool hanging = false,
+                                      const std::vector<std::string>& periodic = {}) {
   DomainParameters p;
   p.cells.assign(dim, cells);
   p.periodic = periodic;

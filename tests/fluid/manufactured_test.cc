@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-// Orders of convergence against solutions known in closed form, with a void fraction that varies in space and time.
+// Orders of convergence against solutions known in closed form, with a void fraction that varies in space and
+// time.
 
 namespace seedflow {
 namespace {
@@ -33,7 +34,8 @@ Result solve(const Manufactured<dim>& m, int cells, bool hanging, double end, in
 /// dt and h are halved together: order 2 in the velocity shows order 2 in space and in time at once.
 template <int dim>
 void expect_orders(const Manufactured<dim>& m, int cells, bool hanging, double end, int steps) {
-  const Result a = solve<dim, 1>(m, cells, hanging, end, steps), b = solve<dim, 1>(m, 2 * cells, hanging, end, 2 * steps);
+  const Result a = solve<dim, 1>(m, cells, hanging, end, steps),
+               b = solve<dim, 1>(m, 2 * cells, hanging, end, 2 * steps);
   EXPECT_GT(std::log2(a.velocity / b.velocity), 1.9) << a.velocity << " -> " << b.velocity;
   EXPECT_GT(std::log2(a.pressure / b.pressure), 1.5) << a.pressure << " -> " << b.pressure;
   for (const Result& r : {a, b}) {
@@ -43,15 +45,23 @@ void expect_orders(const Manufactured<dim>& m, int cells, bool hanging, double e
   }
 }
 
-TEST(Manufactured2d, OrdersOnUniformMeshModelA) { expect_orders<2>({}, 16, false, 0.5, 20); }
-TEST(Manufactured2d, OrdersWithHangingNodes) { expect_orders<2>({}, 16, true, 0.5, 20); }
+TEST(Manufactured2d, OrdersOnUniformMeshModelA) {
+  expect_orders<2>({}, 16, false, 0.5, 20);
+}
+TEST(Manufactured2d, OrdersWithHangingNodes) {
+  expect_orders<2>({}, 16, true, 0.5, 20);
+}
 TEST(Manufactured2d, OrdersModelB) {
   Manufactured<2> m;
   m.model_a = false;
   expect_orders(m, 16, false, 0.5, 20);
 }
-TEST(Manufactured3d, OrdersOnUniformMesh) { expect_orders<3>({}, 4, false, 0.3, 3); }
-TEST(Manufactured3d, OrdersWithHangingNodes) { expect_orders<3>({}, 4, true, 0.3, 3); }
+TEST(Manufactured3d, OrdersOnUniformMesh) {
+  expect_orders<3>({}, 4, false, 0.3, 3);
+}
+TEST(Manufactured3d, OrdersWithHangingNodes) {
+  expect_orders<3>({}, 4, true, 0.3, 3);
+}
 
 /// Quadratic elements and steps so large that the error in space, 3e-4, is far below that in time.
 TEST(Manufactured2d, SecondOrderInTime) {

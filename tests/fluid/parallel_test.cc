@@ -29,7 +29,8 @@ Answer run(const std::string& backend, const std::string& preconditioner, MPI_Co
   p.momentum_preconditioner = preconditioner;
   p.pressure_tolerance = p.momentum_tolerance = 1e-13;
   const std::string zero = dim == 3 ? ", 0" : "";
-  p.boundary_conditions = "left: velocity inlet, 1+0.2*t, 0.3*y" + zero + "; right: pressure outlet, y; top: slip; *: wall";
+  p.boundary_conditions =
+      "left: velocity inlet, 1+0.2*t, 0.3*y" + zero + "; right: pressure outlet, y; top: slip; *: wall";
   Fluid<dim> fluid(p, domain);
   Answer a;
   for (int s = 1; s <= 4; ++s) {
@@ -45,7 +46,8 @@ Answer run(const std::string& backend, const std::string& preconditioner, MPI_Co
     EXPECT_LT(fluid.mass_balance().largest, 1e-8);
     EXPECT_LT(fluid.momentum_balance().residual, 1e-8);
   }
-  const auto norms = fluid.errors([](const auto&) { return dealii::Tensor<1, dim>(); }, [](const auto&) { return 0.0; });
+  const auto norms =
+      fluid.errors([](const auto&) { return dealii::Tensor<1, dim>(); }, [](const auto&) { return 0.0; });
   a.values = {norms.velocity, norms.nodal_velocity, norms.pressure};
   for (int d = 0; d < dim; ++d) a.values.push_back(fluid.momentum()[d]);
   for (const auto& [name, r] : fluid.momentum_balance().reaction) a.values.push_back(r[0]);
@@ -62,11 +64,16 @@ void expect_same(const Answer& a, const Answer& b, double tolerance) {
 /// Rank 0 computes the reference alone on its own communicator.
 template <int dim>
 void expect_same_as_alone() {
-  const Answer together = run<dim>("trilinos", "jacobi", MPI_COMM_WORLD), alone = run<dim>("trilinos", "jacobi", MPI_COMM_SELF);
+  const Answer together = run<dim>("trilinos", "jacobi", MPI_COMM_WORLD),
+               alone = run<dim>("trilinos", "jacobi", MPI_COMM_SELF);
   expect_same(together, alone, 1e-8);
 }
-TEST(FluidMpi, AnyNumberOfRanks2d) { expect_same_as_alone<2>(); }
-TEST(FluidMpi, AnyNumberOfRanks3d) { expect_same_as_alone<3>(); }
+TEST(FluidMpi, AnyNumberOfRanks2d) {
+  expect_same_as_alone<2>();
+}
+TEST(FluidMpi, AnyNumberOfRanks3d) {
+  expect_same_as_alone<3>();
+}
 
 TEST(FluidMpi, BackendsAgree) {
   const Answer reference = run<3>("trilinos", "jacobi", MPI_COMM_WORLD);
@@ -75,8 +82,8 @@ TEST(FluidMpi, BackendsAgree) {
   expect_same(run<3>("petsc", "ilu", MPI_COMM_WORLD), reference, 1e-8);
 }
 
-/// Saved in the middle of a run with a changing matrix and an adapted mesh, loaded into a new domain and continued:
-/// not one bit differs.
+/// Saved in the middle of a run with a changing matrix and an adapted mesh, loaded into a new domain and
+/// continued: not one bit differs.
 void expect_restart_equals_no_restart(const std::string& backend) {
   const Manufactured<2> m;
   const auto conditions = [&](const Domain<2>& d) { return m.conditions(d); };
@@ -119,8 +126,12 @@ void expect_restart_equals_no_restart(const std::string& backend) {
   EXPECT_EQ(e.pressure, e2.pressure);
   EXPECT_EQ(fluid.statistics().pressure_iterations, fluid2.statistics().pressure_iterations);
 }
-TEST(FluidMpi, RestartEqualsNoRestartTrilinos) { expect_restart_equals_no_restart("trilinos"); }
-TEST(FluidMpi, RestartEqualsNoRestartPetsc) { expect_restart_equals_no_restart("petsc"); }
+TEST(FluidMpi, RestartEqualsNoRestartTrilinos) {
+  expect_restart_equals_no_restart("trilinos");
+}
+TEST(FluidMpi, RestartEqualsNoRestartPetsc) {
+  expect_restart_equals_no_restart("petsc");
+}
 
 }  // namespace
 }  // namespace seedflow

@@ -14,8 +14,8 @@
 namespace seedflow {
 
 /// The boundary conditions on the nodes and faces of the present mesh.
-/// Where sides meet, a node's velocity component follows the first of: wall, moving wall, velocity inlet, slip,
-/// pressure inlet (its two components along the side); its force is counted for that side.
+/// Where sides meet, a node's velocity component follows the first of: wall, moving wall, velocity inlet,
+/// slip, pressure inlet (its two components along the side); its force is counted for that side.
 template <int dim, int degree>
 class BoundaryData {
  public:
@@ -40,21 +40,21 @@ class BoundaryData {
   void set_velocity(double time, std::array<NodalVector, dim>& u) const;  ///< owned nodes
   void set_pressure(double time, NodalVector& p) const;
 
-  /// y_i -= factor oint eps u.n q_i over sides of given velocity, u the nodal interpolant, eps extrapolated from the
-  /// cell's quadrature points (from the nearest one where extrapolation leaves (0, 1]).
-  /// Returns the inflow and the net outflow of this rank [m^dim/s].
-  std::pair<double, double> subtract_flux(const std::array<NodalVector, dim>& u, const PointField& void_fraction,
-                                          NodalVector& y) const;
+  /// y_i -= factor oint eps u.n q_i over sides of given velocity, u the nodal interpolant, eps extrapolated
+  /// from the cell's quadrature points (from the nearest one where extrapolation leaves (0, 1]). Returns the
+  /// inflow and the net outflow of this rank [m^dim/s].
+  std::pair<double, double> subtract_flux(const std::array<NodalVector, dim>& u,
+                                          const PointField& void_fraction, NodalVector& y) const;
   /// -oint p n per side, this rank's faces.
   std::vector<Vector> pressure_force(const NodalVector& p) const;
 
  private:
   struct Face {
     std::uint32_t place;
-    std::vector<double> value;      ///< [q][i]
+    std::vector<double> value;        ///< [q][i]
     std::vector<double> extrapolate;  ///< [q][cell point]
-    std::vector<int> nearest;       ///< [q]
-    std::vector<Vector> normal;     ///< n dA
+    std::vector<int> nearest;         ///< [q]
+    std::vector<Vector> normal;       ///< n dA
   };
   struct NodeNormal {
     std::uint32_t node;

@@ -7,11 +7,13 @@
 
 namespace seedflow {
 
-constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+constexpr int power(int base, int exponent) {
+  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
 
-/// Shape functions of Q_k and their reference derivatives at the points of the (k+1)-point Gauss rule, as plain tables
-/// for the cell kernels. test[q][0][i] is the value of shape function i at point q, test[q][1+d][i] its derivative in
-/// reference direction d.
+/// Shape functions of Q_k and their reference derivatives at the points of the (k+1)-point Gauss rule, as
+/// plain tables for the cell kernels. test[q][0][i] is the value of shape function i at point q,
+/// test[q][1+d][i] its derivative in reference direction d.
 template <int dim, int degree>
 struct Element {
   static constexpr int n = power(degree + 1, dim);    ///< shape functions of a cell

@@ -19,23 +19,24 @@ struct FlowFields {
   PointField source{0.0};                             ///< drag source + force [N/m3]
   PointField u_old{0.0}, u_older{0.0};                ///< velocities that satisfy mass [m/s]
   PointField theta{0.0};                              ///< pressure stabilisation, set by assemble_momentum
-  Components u;                     ///< u~ [m/s]
-  Components y;                     ///< projection of kappa grad p [m/s]
+  Components u;                                       ///< u~ [m/s]
+  Components y;                                       ///< projection of kappa grad p [m/s]
   NodalVector p, phi;                                 ///< old pressure and its increment [Pa]
 };
 
-/// y = (int c grad p q_i) / (int M q_i). For degree > 1, where shape functions change sign, M is taken as its mean
-/// over each cell in both integrals.
+/// y = (int c grad p q_i) / (int M q_i). For degree > 1, where shape functions change sign, M is taken as its
+/// mean over each cell in both integrals.
 template <int dim, int degree>
 void project_pressure_gradient(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
                                FlowFields<dim>& fields);
 
-/// The momentum equation for u~: matrix (one for all components), right-hand sides, and, if `mass_defect` is not null,
-/// int eps w.grad q_i - int q_i d(eps)/dt of the extrapolated velocity w, which on open sides is the outflow.
+/// The momentum equation for u~: matrix (one for all components), right-hand sides, and, if `mass_defect` is
+/// not null, int eps w.grad q_i - int q_i d(eps)/dt of the extrapolated velocity w, which on open sides is
+/// the outflow.
 template <int dim, int degree>
 void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
-                       FlowFields<dim>& fields, SparseMatrix& matrix, typename FlowFields<dim>::Components& rhs,
-                       NodalVector* mass_defect);
+                       FlowFields<dim>& fields, SparseMatrix& matrix,
+                       typename FlowFields<dim>::Components& rhs, NodalVector* mass_defect);
 
 /// int eps kappa grad q_i . grad q_j
 template <int dim, int degree>
@@ -56,10 +57,12 @@ struct StepIntegrals {
   double growth = 0;       ///< sum over cells |int d(eps)/dt|
 };
 
-/// The velocity of the end of the step at the points, into fields.u_older (which is no longer needed; the caller swaps
-/// it with u_old), and its mass residual without boundary fluxes, int eps u.grad q_i - int q_i d(eps)/dt.
+/// The velocity of the end of the step at the points, into fields.u_older (which is no longer needed; the
+/// caller swaps it with u_old), and its mass residual without boundary fluxes, int eps u.grad q_i - int q_i
+/// d(eps)/dt.
 template <int dim, int degree>
-StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
-                                    FlowFields<dim>& fields, NodalVector& mass_residual);
+StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space,
+                                    const StepCoefficients& coefficients, FlowFields<dim>& fields,
+                                    NodalVector& mass_residual);
 
 }  // namespace seedflow

@@ -18,23 +18,26 @@
 
 namespace seedflow {
 
-/// Is mass kept? R_i = int eps u.grad q_i - int q_i d(eps)/dt - boundary flux, for every pressure shape function q_i.
+/// Is mass kept? R_i = int eps u.grad q_i - int q_i d(eps)/dt - boundary flux, for every pressure shape
+/// function q_i.
 struct MassBalance {
   double largest = 0;  ///< max_i |R_i| / flow
   double total = 0;    ///< |sum_i R_i| / flow
-  /// The flow through the domain [m^dim/s]: the largest of the inflow through the sides, the change of void volume
-  /// sum |int d(eps)/dt|, and the circulation int eps |u| / V^(1/dim).
+  /// The flow through the domain [m^dim/s]: the largest of the inflow through the sides, the change of void
+  /// volume sum |int d(eps)/dt|, and the circulation int eps |u| / V^(1/dim).
   double flow = 0;
 };
 
-/// Where the momentum goes in one step [N, in 2D N/m]; change = exchange + pressure + sum of reactions + residual.
+/// Where the momentum goes in one step [N, in 2D N/m]; change = exchange + pressure + sum of reactions +
+/// residual.
 template <int dim>
 struct MomentumBalance {
   using Vector = dealii::Tensor<1, dim>;
   Vector change;    ///< d/dt int rho eps u by the time scheme
   Vector exchange;  ///< int (drag_source - drag_coefficient u + force), u of the end of the step
   Vector pressure;  ///< -int c grad p, c = eps (model A) or 1 (model B)
-  /// Model A: int (1 - eps) grad p, what the air gains because the seeds bear their share of the pressure gradient.
+  /// Model A: int (1 - eps) grad p, what the air gains because the seeds bear their share of the pressure
+  /// gradient.
   Vector pressure_share;
   /// Per side: what the side does to the air by shear and by momentum carried through it.
   std::map<std::string, Vector> reaction;
@@ -47,23 +50,26 @@ struct FluidStatistics {
   int momentum_iterations = 0, pressure_iterations = 0;  ///< of the last step
   int preconditioners_built = 0;
   /// CPU seconds on this rank since construction.
-  double momentum_assembly = 0, momentum_solve = 0, pressure_assembly = 0, pressure_setup = 0, pressure_solve = 0,
-         update = 0;
+  double momentum_assembly = 0, momentum_solve = 0, pressure_assembly = 0, pressure_setup = 0,
+         pressure_solve = 0, update = 0;
 };
 
 /// The air: volume-averaged incompressible Navier-Stokes (Anderson & Jackson 1967, doi:10.1021/i160024a007)
 ///   d(eps)/dt + div(eps u) = 0
-///   d(rho eps u)/dt + div(rho eps u u) = -c grad p + div(eps mu grad u) + S - beta u + f,  c = eps (A) or 1 (B)
-/// on Q_k elements for velocity and pressure, BDF2 with variable step (BDF1 first and after refinement), SUPG, and a
-/// projection implicit in the drag. With M = rho a0 eps/dt + beta and w the extrapolated velocity of the past:
-///   1. u~ (nodal) from the momentum equation with pressure gradient  g = c grad p_old - M theta (kappa grad p_old - y)
+///   d(rho eps u)/dt + div(rho eps u u) = -c grad p + div(eps mu grad u) + S - beta u + f,  c = eps (A) or 1
+///   (B)
+/// on Q_k elements for velocity and pressure, BDF2 with variable step (BDF1 first and after refinement),
+/// SUPG, and a projection implicit in the drag. With M = rho a0 eps/dt + beta and w the extrapolated velocity
+/// of the past:
+///   1. u~ (nodal) from the momentum equation with pressure gradient  g = c grad p_old - M theta (kappa grad
+///   p_old - y)
 ///   2. u = u~ - kappa grad(phi) - theta (kappa grad p_old - y),  kappa = c/M,  phi = p - p_old
 ///      from  int eps u.grad q - oint eps u.n q - int q d(eps)/dt = 0  for every q of the pressure space.
-/// y is the nodal (lumped, M-weighted) projection of kappa grad p_old: theta times the fluctuation is the pressure
-/// stabilisation (orthogonal subscales, Codina 2001, doi:10.1016/S0168-9274(01)00053-1). u, given at the quadrature
-/// points and discontinuous between cells, is the velocity that satisfies mass; it carries seeds, enters the time
-/// derivative and feels the drag. Steps 1 + 2 sum to the momentum equation with u in time derivative and drag and
-/// the full grad p: so the momentum budget closes whatever theta is.
+/// y is the nodal (lumped, M-weighted) projection of kappa grad p_old: theta times the fluctuation is the
+/// pressure stabilisation (orthogonal subscales, Codina 2001, doi:10.1016/S0168-9274(01)00053-1). u, given at
+/// the quadrature points and discontinuous between cells, is the velocity that satisfies mass; it carries
+/// seeds, enters the time derivative and feels the drag. Steps 1 + 2 sum to the momentum equation with u in
+/// time derivative and drag and the full grad p: so the momentum budget closes whatever theta is.
 template <int dim, int degree = 1>
 class Fluid {
  public:
@@ -77,23 +83,23 @@ class Fluid {
 
   const QuadratureLayout<dim>& layout() const;
 
-  /// Velocity [m/s], pressure [Pa] and void fraction (per quadrature point; empty = 1) at time t [s]; restarts with
-  /// a first-order step.
+  /// Velocity [m/s], pressure [Pa] and void fraction (per quadrature point; empty = 1) at time t [s];
+  /// restarts with a first-order step.
   void set_initial(double time, const std::function<Vector(const dealii::Point<dim>&)>& velocity,
                    const std::function<double(const dealii::Point<dim>&)>& pressure,
                    const std::vector<double>& void_fraction = {});
 
   /// One step of size dt [s]. Empty arrays in `exchange` mean none (void fraction 1).
-  /// Errors: RunError for a void fraction outside (0, 1], negative drag coefficient, NaN, a solver that does not
-  /// converge, a closed domain whose inflow does not balance the change of void volume.
+  /// Errors: RunError for a void fraction outside (0, 1], negative drag coefficient, NaN, a solver that does
+  /// not converge, a closed domain whose inflow does not balance the change of void volume.
   void advance(double dt, const Exchange<dim>& exchange);
   double time() const;
 
   // At the quadrature points, after a step.
   std::vector<Vector> velocity() const;           ///< u, satisfies mass [m/s]
   std::vector<Vector> pressure_gradient() const;  ///< grad p [Pa/m]
-  std::vector<Vec3> vorticity() const;            ///< curl u~ [1/s]; in 2D only its z component differs from 0
-  std::vector<Vector> acceleration() const;       ///< Du~/Dt = (u - u_old)/dt + u.grad u~ [m/s2]
+  std::vector<Vec3> vorticity() const;       ///< curl u~ [1/s]; in 2D only its z component differs from 0
+  std::vector<Vector> acceleration() const;  ///< Du~/Dt = (u - u_old)/dt + u.grad u~ [m/s2]
 
   const MassBalance& mass_balance() const;
   const MomentumBalance<dim>& momentum_balance() const;
@@ -105,16 +111,17 @@ class Fluid {
   /// Largest difference of nodal velocities within each cell of layout() [m/s]; for refinement.
   std::vector<double> velocity_jump() const;
 
-  /// Errors against a known solution, all ranks (L2 norms): of u, u~, and p (mean removed if no side fixes p).
+  /// Errors against a known solution, all ranks (L2 norms): of u, u~, and p (mean removed if no side fixes
+  /// p).
   struct Errors {
     double velocity = 0, nodal_velocity = 0, pressure = 0;
   };
   Errors errors(const std::function<Vector(const dealii::Point<dim>&)>& velocity,
                 const std::function<double(const dealii::Point<dim>&)>& pressure) const;
 
-  /// Refines and coarsens the cells flagged in the domain's triangulation (both are changed here), moves velocity
-  /// and pressure to the new mesh. `void_fraction_on` is called with the new layout and returns eps at the present
-  /// time there (empty = 1). The next step is first order.
+  /// Refines and coarsens the cells flagged in the domain's triangulation (both are changed here), moves
+  /// velocity and pressure to the new mesh. `void_fraction_on` is called with the new layout and returns eps
+  /// at the present time there (empty = 1). The next step is first order.
   void refine(const std::function<std::vector<double>(const QuadratureLayout<dim>&)>& void_fraction_on);
 
   /// The whole state of this rank, binary; load() needs the same domain (see Domain::save) on as many ranks.
@@ -122,8 +129,8 @@ class Fluid {
   void save(std::ostream& out) const;
   void load(std::istream& in);
 
-  /// Writes u~, p and cell-mean void fraction as <directory>/<name>_<counter>.pvtu with its pieces; returns that
-  /// file's name.
+  /// Writes u~, p and cell-mean void fraction as <directory>/<name>_<counter>.pvtu with its pieces; returns
+  /// that file's name.
   std::string write(const std::string& directory, const std::string& name, unsigned int counter) const;
 
  private:

@@ -14,11 +14,11 @@
 
 namespace seedflow {
 
-/// The Q_k space shared by the velocity components and the pressure, prepared for kernels that treat lane_width cells
-/// at once: lane = cell. Groups of cells whose nodes are all free come first; they are scattered through a table of
-/// positions. Cells with hanging or periodic nodes follow; what they add goes to the nodes that constrain them.
-/// Groups follow the Z order of the cells, so that sums are formed in an order that depends on the mesh alone.
-/// Unused lanes of a group repeat its first cell with weight zero.
+/// The Q_k space shared by the velocity components and the pressure, prepared for kernels that treat
+/// lane_width cells at once: lane = cell. Groups of cells whose nodes are all free come first; they are
+/// scattered through a table of positions. Cells with hanging or periodic nodes follow; what they add goes to
+/// the nodes that constrain them. Groups follow the Z order of the cells, so that sums are formed in an order
+/// that depends on the mesh alone. Unused lanes of a group repeat its first cell with weight zero.
 template <int dim, int degree>
 class NodalSpace {
  public:
@@ -89,8 +89,8 @@ class NodalSpace {
 
   std::vector<Lanes> jacobian;
   std::vector<std::uint32_t> first_jacobian;
-  std::vector<std::uint8_t> jacobian_stride;  ///< 0 where the cells of a group are parallelepipeds
-  std::vector<std::uint32_t> position;        ///< [((group n + i) n + j) W + lane], free groups
+  std::vector<std::uint8_t> jacobian_stride;       ///< 0 where the cells of a group are parallelepipeds
+  std::vector<std::uint32_t> position;             ///< [((group n + i) n + j) W + lane], free groups
   std::vector<ConstrainedCell> constrained_cells;  ///< [(group - n_free_groups) W + lane]
   std::vector<Line> lines;
 };

@@ -8,18 +8,18 @@ namespace seedflow {
 
 /// What a user sets of the air: section "Air".
 struct FluidParameters {
-  double density = 1.2;              ///< rho [kg/m3]
-  double viscosity = 1.8e-5;         ///< mu, dynamic [Pa s]
-  std::string formulation = "A";     ///< A: pressure gradient shared by air and seeds; B: all on the air
+  double density = 1.2;           ///< rho [kg/m3]
+  double viscosity = 1.8e-5;      ///< mu, dynamic [Pa s]
+  std::string formulation = "A";  ///< A: pressure gradient shared by air and seeds; B: all on the air
   std::string boundary_conditions = "*: wall";
 
   double pressure_stabilization = 1;  ///< factor on theta, 0..1 (see fluid/step_coefficients.h)
   double streamline_upwinding = 1;    ///< factor on the SUPG time scale
 
-  std::string backend = "trilinos";                ///< trilinos: ML and Ifpack; petsc: BoomerAMG and PETSc's ILU
+  std::string backend = "trilinos";  ///< trilinos: ML and Ifpack; petsc: BoomerAMG and PETSc's ILU
   std::string momentum_preconditioner = "jacobi";  ///< jacobi, or ilu by the backend
   double pressure_tolerance = 1e-9;                ///< residual / right-hand side, 2-norm
-  double momentum_tolerance = 1e-11;               ///< diagonally scaled residual / velocity, largest component
+  double momentum_tolerance = 1e-11;  ///< diagonally scaled residual / velocity, largest component
   int max_iterations = 1000;
 
   void declare(Parameters& parameters);

@@ -8,8 +8,8 @@
 
 namespace seedflow {
 
-/// An approximate inverse by one of the libraries (or the diagonal). Nodes marked `fixed` are decoupled: their rows
-/// and columns are those of the diagonal.
+/// An approximate inverse by one of the libraries (or the diagonal). Nodes marked `fixed` are decoupled:
+/// their rows and columns are those of the diagonal.
 class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
@@ -22,7 +22,8 @@ class Preconditioner {
 
 enum class PreconditionerKind { jacobi, ilu, multigrid };
 
-/// `backend`: "trilinos" (Ifpack ILU(0); ML smoothed aggregation) or "petsc" (block Jacobi with ILU(0); BoomerAMG).
+/// `backend`: "trilinos" (Ifpack ILU(0); ML smoothed aggregation) or "petsc" (block Jacobi with ILU(0);
+/// BoomerAMG).
 std::unique_ptr<Preconditioner> make_preconditioner(const std::string& backend, PreconditionerKind kind);
 
 std::unique_ptr<Preconditioner> make_trilinos_preconditioner(PreconditionerKind kind);

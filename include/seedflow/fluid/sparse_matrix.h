@@ -13,8 +13,9 @@ namespace seedflow {
 /// One scalar unknown per node: owned values, then ghosts.
 using NodalVector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-/// Where the entries of a distributed matrix are: compressed rows in local numbering (owned rows and columns first,
-/// then ghosts in the order of the partitioner). Rows of ghosts collect what this rank's cells add to rows of others.
+/// Where the entries of a distributed matrix are: compressed rows in local numbering (owned rows and columns
+/// first, then ghosts in the order of the partitioner). Rows of ghosts collect what this rank's cells add to
+/// rows of others.
 class SparsityStructure {
  public:
   /// `pattern`: rows of the locally relevant unknowns as this rank's cells couple them. Collective.

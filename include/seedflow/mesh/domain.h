@@ -29,10 +29,11 @@ struct DomainParameters {
 
 /// The meshed domain of the air, distributed over the ranks, with names for its sides.
 ///
-/// The sides of a box are left/right (x-/x+), front/back (y-/y+), bottom/top (z-/z+); in two dimensions left/right and
-/// bottom/top (y-/y+). The sides of a Gmsh mesh carry the names of its physical groups.
+/// The sides of a box are left/right (x-/x+), front/back (y-/y+), bottom/top (z-/z+); in two dimensions
+/// left/right and bottom/top (y-/y+). The sides of a Gmsh mesh carry the names of its physical groups.
 ///
-/// Errors: InputError for an empty box, an unreadable or unnamed mesh, an unknown side, more ranks than cells.
+/// Errors: InputError for an empty box, an unreadable or unnamed mesh, an unknown side, more ranks than
+/// cells.
 template <int dim>
 class Domain {
  public:
@@ -45,7 +46,8 @@ class Domain {
 
   Domain(const DomainParameters& parameters, MPI_Comm comm);
   /// From a coarse mesh whose boundary ids are named by `names`.
-  Domain(const dealii::Triangulation<dim>& coarse, const std::map<dealii::types::boundary_id, std::string>& names,
+  Domain(const dealii::Triangulation<dim>& coarse,
+         const std::map<dealii::types::boundary_id, std::string>& names,
          const std::vector<std::string>& periodic, MPI_Comm comm);
 
   Triangulation& triangulation() { return *mesh; }
@@ -65,13 +67,13 @@ class Domain {
   /// Errors: InputError if a rank would have no cell.
   void require_cells_for_all_ranks() const;
 
-  /// The mesh as p4est files with this prefix; all ranks. load() needs a domain constructed from the same parameters
-  /// on as many ranks, and comes before anything (Fluid, point location) is built on the domain.
+  /// The mesh as p4est files with this prefix; all ranks. load() needs a domain constructed from the same
+  /// parameters on as many ranks, and comes before anything (Fluid, point location) is built on the domain.
   void save(const std::string& prefix) const;
   void load(const std::string& prefix);
 
-  /// The locally owned active cells in hierarchical (Z) order: unlike the traversal order it depends on the mesh
-  /// alone and not on how refinement led to it. Each is given by its number in the traversal order.
+  /// The locally owned active cells in hierarchical (Z) order: unlike the traversal order it depends on the
+  /// mesh alone and not on how refinement led to it. Each is given by its number in the traversal order.
   std::vector<typename Triangulation::active_cell_iterator> cells_in_z_order() const;
 
  private:
