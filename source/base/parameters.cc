@@ -3,6 +3,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <ostream>
@@ -471,7 +472,13 @@ void Parameters::reject(const std::string& path, const std::string& reason, cons
     text = location(implementation->file, node->path(), entry->name) + " (default " +
            implementation->value(*node, entry->name) +
            (entry->unit.empty() || entry->unit == "1" ? "" : " " + entry->unit) + ")";
-  throw InputError(text + ": " + reason + " " + remedy);
+  const auto sentence = [](std::string words) {
+    if (!words.empty() && std::string(".!?").find(words.back()) == std::string::npos) words += ".";
+    return words;
+  };
+  std::string what_to_do = sentence(remedy);
+  if (!what_to_do.empty()) what_to_do[0] = static_cast<char>(std::toupper(what_to_do[0]));
+  throw InputError(text + ": " + sentence(reason) + " " + what_to_do);
 }
 
 bool Parameters::is_set(const std::string& path) const {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "seedflow/base/error.h"
 #include "seedflow/output/folder.h"
@@ -64,12 +65,20 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
     throw InputError(file.string() + ":" + std::to_string(rows[0].line) +
                      ": the header must be condition,quantity,unit,coordinate,coordinate_unit,value,"
                      "standard_uncertainty.");
+  if (rows.size() == 1) throw InputError(file.string() + ": there is no measurement below the header.");
   std::vector<Measurement> result;
-  std::set<std::string> seen;
+  std::set<std::tuple<std::string, std::string, double, double>> seen;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& f = rows[i].fields;
     const std::string where = file.string() + ":" + std::to_string(rows[i].line);
     Measurement m{f[0], f[1], f[2], std::numeric_limits<double>::quiet_NaN(), f[4], 0, 0, rows[i].line};
+    for (const int needed : {0, 1})
+      if (f[needed].empty()) throw InputError(where + ": the " + header[needed] + " is missing.");
+    if (f[2].empty()) throw InputError(where + ": " + f[1] + " has no unit. Write 1 for a pure number.");
+    if (f[3].empty() != f[4].empty())
+      throw InputError(where + ": " +
+                       (f[3].empty() ? "the coordinate is missing, but its unit is given."
+                                     : "the coordinate has no unit. Write 1 for a pure number."));
     if (!f[3].empty()) m.coordinate = to_number(f[3], where, "the coordinate");
     m.value = to_number(f[5], where, "the value");
     m.standard_uncertainty = to_number(f[6], where, "the standard uncertainty");
@@ -77,7 +86,8 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
       throw InputError(
           where + ": the standard uncertainty " + f[6] +
           " must be positive. If it is not known, estimate it; zero would mean a perfect measurement.");
-    if (!seen.insert(f[0] + "," + f[1] + "," + f[3] + "," + f[5]).second)
+    const double place = f[3].empty() ? 0.0 : m.coordinate;
+    if (!seen.insert({f[0], f[1], place, m.value}).second)
       throw InputError(where + ": this point stands in the file twice.");
     result.push_back(m);
   }
@@ -99,11 +109,13 @@ std::vector<Condition> read_conditions(const std::filesystem::path& file) {
     path.push_back(trim(header[c].substr(0, open)));
     unit.push_back(header[c].substr(open + 1, header[c].size() - open - 2));
   }
+  if (rows.size() == 1) throw InputError(file.string() + ": there is no condition below the header.");
   std::vector<Condition> result;
   std::set<std::string> seen;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& f = rows[i].fields;
     const std::string where = file.string() + ":" + std::to_string(rows[i].line);
+    if (f[0].empty()) throw InputError(where + ": the name of the condition is missing.");
     if (f[1] != "yes" && f[1] != "no")
       throw InputError(where + ": held_out must be yes or no, not \"" + f[1] + "\".");
     if (!seen.insert(f[0]).second)

@@ -189,8 +189,8 @@ int run_settling(const RunOptions& options) {
 
   const MPI_Comm comm = MPI_COMM_WORLD;
   const bool writes = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
-  if (!options.dry_run) prepare_output_folder(options.output);
   const InterruptGuard signals(comm);  // a signal during the set-up is seen before the first step
+  if (!options.dry_run) prepare_output_folder(options.output);
   Simulation simulation(p, comm);
   if (options.dry_run) {
     if (writes) std::cout << simulation.describe() << std::flush;

@@ -1,5 +1,6 @@
 #include "seedflow/experiment/simulation_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace seedflow {
@@ -44,6 +45,11 @@ void RunParameters::declare(Parameters& p) {
 void SimulationParameters::declare(Parameters& p) {
   run.declare(p);
   domain.declare(p);
+  {
+    const auto section = p.section("Air domain", "");
+    const auto inner = p.section("Adaptive refinement", "Where the mesh follows seeds and flow.");
+    refinement.declare(p);
+  }
   air.declare(p);
   {
     const auto section = p.section("Air", "");
@@ -69,6 +75,14 @@ void SimulationParameters::check(const Parameters& p) {
   seeds.material.density = seeds.model.density;
   if (air_model == "navier-stokes") coupling.check(p);
   if (run.air_step > run.end_time) p.reject("Run/Air step", "it is longer than the run", "use a smaller one");
+  for (int d = 0; d < 3; ++d)
+    if (!(domain.lower[d] < domain.upper[d]))
+      p.reject("Air domain/Upper corner", "it must lie above Lower corner in every direction",
+               "give the box a volume");
+  if (domain.cells.size() != 3 ||
+      std::any_of(domain.cells.begin(), domain.cells.end(), [](double n) { return n != std::floor(n); }))
+    p.reject("Air domain/Cells", "three whole numbers are needed, one per direction",
+             "write them like 10, 10, 40");
   for (int d = 0; d < 3; ++d)
     if (!(domain.lower[d] < seeds.position[d] && seeds.position[d] < domain.upper[d]))
       p.reject("Seeds/Position", "the seed starts outside the air domain",

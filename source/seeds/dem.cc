@@ -37,8 +37,10 @@ void Dem::set_loads(const SphereLoads& loads) {
     return std::all_of(v.begin(), v.end(), [](double a) { return a >= 0; });
   };
   if (!all_non_negative(loads.drag_coefficient) || !all_non_negative(loads.added_mass))
-    throw RunError("Loads on the seeds at t = " + std::to_string(now) +
-                   " s: a drag coefficient or added mass is negative or not a number.");
+    throw RunError(
+        "Loads on the seeds at t = " + std::to_string(now) +
+        " s: a drag coefficient or added mass is negative or not a number. Check the velocity of the "
+        "air and the effects that are switched on.");
   for (SeedStore& s : store) s.load.resize(s.sphere.size());
   for (int seed = 0, k = 0; seed < n_seeds(); ++seed) {
     SeedStore& s = store[slots[seed].store];

@@ -1,5 +1,6 @@
 // Setting up a Dem: what it is made of, and the checks before it runs.
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -169,15 +170,18 @@ void Dem::check() {
          << ". Move the seed.";
     throw InputError(text.str());
   }
-  for (const TimeStepLimit& limit : time_step_limits())
-    if (parameters.time_step > limit.step()) {
-      std::ostringstream text;
-      text << "The DEM time step of " << parameters.time_step << " s is above its limit of " << limit.step()
-           << " s (" << limit.fraction << " of " << limit.full << " s: " << limit.cause
-           << "). Set 'Time step' to at most " << limit.step() << " s, use softer material, or raise '"
-           << limit.setting << "' knowingly.";
-      throw InputError(text.str());
-    }
+  const std::vector<TimeStepLimit> limits = time_step_limits();
+  const auto lowest =
+      std::min_element(limits.begin(), limits.end(),
+                       [](const TimeStepLimit& a, const TimeStepLimit& b) { return a.step() < b.step(); });
+  if (lowest != limits.end() && parameters.time_step > lowest->step()) {
+    std::ostringstream text;
+    text << "The DEM time step of " << parameters.time_step << " s is above its limit of " << lowest->step()
+         << " s (" << lowest->fraction << " of " << lowest->full << " s: " << lowest->cause
+         << "). Set 'Time step' to at most " << lowest->step() << " s, use softer material, or raise '"
+         << lowest->setting << "' knowingly.";
+    throw InputError(text.str());
+  }
 }
 
 }  // namespace seedflow

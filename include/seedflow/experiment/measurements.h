@@ -26,7 +26,7 @@ struct Condition {
 
 /// Reads `condition,quantity,unit,coordinate,coordinate_unit,value,standard_uncertainty`; lines that begin
 /// with # are comments. Errors: InputError with file and line for a missing column, a number that is none,
-/// not finite, or an uncertainty that is not positive, a point given twice.
+/// not finite, a missing unit, an uncertainty that is not positive, a point given twice.
 std::vector<Measurement> read_measurements(const std::filesystem::path& file);
 
 /// Reads `condition,held_out,` and one column per entry that differs, named `Section/Entry [unit]`; held_out
