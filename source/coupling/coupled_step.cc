@@ -44,7 +44,7 @@ CoupledStep::CoupledStep(const CouplingParameters& p, double kernel_width, Fluid
 }
 
 std::vector<double> CoupledStep::void_fraction() {
-  all_bodies.update(dem);
+  if (!parameters.two_way) return std::vector<double>(fluid.layout().size(), 1.0);
   std::vector<double> eps;
   solid.compute(all_bodies, all_bodies.position, all_bodies.sphere_position(), dem.time(), eps);
   return eps;

@@ -1,4 +1,5 @@
 #include "seedflow/experiment/experiment.h"
+#include "seedflow/fluid/cavity_benchmark.h"
 #include "seedflow/mesh/point_location_bench.h"
 #include "seedflow/seeds/bench_seeds.h"
 
@@ -22,6 +23,24 @@ std::vector<BenchResult> seeds_bonded() {
                 seed_results("seeds-bonded, packed", bench_seeds_bonded(true)));
 }
 
+std::vector<BenchResult> air() {
+  const CavityBenchmark b = bench_cavity(40, 20, 0.01, "trilinos", MPI_COMM_WORLD);
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const FluidStatistics& s = b.statistics;
+  return {{"air/rate", b.cell_steps_per_second_per_core, "cell-steps/s per core", ranks},
+          {"air/memory", b.bytes_per_cell, "bytes per cell", ranks},
+          {"air/courant number", b.courant_number, "1", ranks},
+          {"air/pressure iterations", b.pressure_iterations, "per step", ranks},
+          {"air/momentum iterations", b.momentum_iterations, "per step", ranks},
+          {"air/momentum assembly", s.momentum_assembly / b.seconds, "of the time", ranks},
+          {"air/momentum solve", s.momentum_solve / b.seconds, "of the time", ranks},
+          {"air/pressure assembly", s.pressure_assembly / b.seconds, "of the time", ranks},
+          {"air/pressure set-up", s.pressure_setup / b.seconds, "of the time", ranks},
+          {"air/pressure solve", s.pressure_solve / b.seconds, "of the time", ranks},
+          {"air/update", s.update / b.seconds, "of the time", ranks}};
+}
+
 std::vector<BenchResult> locate() {
   const PointLocationRate r = measure_point_location(MPI_COMM_SELF);
   return {{"locate/look-up", r.look_up_ms, "ms per coupling step"},
@@ -33,7 +52,8 @@ std::vector<BenchResult> locate() {
 }  // namespace
 
 std::vector<Bench> bench_catalogue() {
-  return {{"seeds-bonded", "800 bonded seeds of 70 sub-spheres: bonds, motion, contact search", seeds_bonded},
+  return {{"air", "lid-driven cavity of 40^3 cells, implicit convection, pressure to 1e-6", air},
+          {"seeds-bonded", "800 bonded seeds of 70 sub-spheres: bonds, motion, contact search", seeds_bonded},
           {"locate", "56,000 sub-spheres to the cells of an adaptive mesh of 50,000 cells", locate}};
 }
 

@@ -38,7 +38,8 @@ struct Tally {
 void save_state(const Simulation& simulation, const Tally& tally, const Parameters& parameters,
                 const std::filesystem::path& folder) {
   CheckpointWriter checkpoint(folder, simulation.time(), as_text(parameters), simulation.communicator());
-  simulation.save(checkpoint.stream("seeds"), checkpoint.stream("air"), checkpoint.stream("coupling"));
+  simulation.save(checkpoint.stream("seeds"), checkpoint.stream("air"), checkpoint.stream("coupling"),
+                  checkpoint.external("mesh"));
   std::ostream& run = checkpoint.stream("run");
   run.write(reinterpret_cast<const char*>(&tally), sizeof tally);
   checkpoint.commit();
@@ -48,7 +49,8 @@ Tally load_state(Simulation& simulation, const Parameters& parameters, const std
   CheckpointReader checkpoint(folder, simulation.communicator());
   checkpoint.require_same_parameters(as_text(parameters),
                                      {"Run/End time", "Run/Series interval", "Run/Checkpoint interval"});
-  simulation.load(checkpoint.stream("seeds"), checkpoint.stream("air"), checkpoint.stream("coupling"));
+  simulation.load(checkpoint.stream("seeds"), checkpoint.stream("air"), checkpoint.stream("coupling"),
+                  checkpoint.external("mesh"));
   Tally tally;
   checkpoint.stream("run").read(reinterpret_cast<char*>(&tally), sizeof tally);
   return tally;
@@ -126,6 +128,9 @@ void add_conservation(Simulation& simulation, double largest_mass_error, Summary
   summary.conserve("particle volume in the void fraction", simulation.coupled()->largest_volume_error(),
                    1e-12);
   summary.conserve("momentum of the seeds", ledger.seeds_error(), 1e-9);
+  if (simulation.settings().refinement.interval > 0)
+    summary.conserve("air momentum, largest change by moving it to an adapted mesh",
+                     simulation.momentum_change_by_adaptation());
   if (!simulation.settings().coupling.two_way) return;
   summary.conserve("momentum exchange seeds - air", ledger.exchange_error(), 1e-11);
   summary.conserve("momentum of seeds, air and walls", ledger.total_error(), 1e-8);

@@ -82,6 +82,10 @@ void make_single_sphere(SimulationParameters& p) {
   p.seeds.model.n_spheres = 1;
   p.seeds.model.diameter = single_sphere_diameter;
   p.seeds.model.sphere_radius = 0.5 * single_sphere_diameter;
+  // The same step as the seeds, two thirds of this light sphere's Rayleigh time: stable, and it touches
+  // nothing.
+  p.dem.limits.rayleigh_fraction = 0.9;
+  p.dem.limits.hertz_fraction = 0.5;
   apply({1, "radius", "sub-sphere", "seed", "edge"}, p);
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "seedflow/base/binary.h"
+
 namespace seedflow {
 
 namespace {
@@ -12,31 +14,70 @@ dealii::Point<3> as_point(const Vec3& x) {
   return {x.x, x.y, x.z};
 }
 
+double narrowest(const DomainParameters& box) {
+  const Vec3 size = box.upper - box.lower;
+  return std::min({size.x, size.y, size.z});
+}
+
 }  // namespace
 
 Simulation::Simulation(SimulationParameters& p, MPI_Comm comm) : parameters(p), comm(comm), seeds(p.dem) {
   add_seeds();
-  const AirProperties properties{p.air.density, p.air.viscosity, p.air.formulation == "A"};
   if (p.air_model == "prescribed") {
+    const AirProperties properties{p.air.density, p.air.viscosity, p.air.formulation == "A"};
     prescribed.emplace(p.prescribed, p.air.density, p.air.viscosity);
     one_way.emplace(p.coupling, *prescribed, seeds, p.effects, properties, p.dem.gravity);
-  } else {
-    domain.emplace(p.domain, comm);
-    domain->require_cells_for_all_ranks();
-    air.emplace(p.air, *domain);
-    std::array<unsigned int, 3> cells;
-    for (int d = 0; d < 3; ++d) cells[d] = static_cast<unsigned int>(p.domain.cells[d]);
-    location.build(domain->triangulation(), as_point(p.domain.lower), as_point(p.domain.upper), cells);
-    two_way.emplace(p.coupling, p.kernel_width(), *air, location, seeds, p.effects, properties, p.dem.gravity,
-                    comm);
-    air->set_initial(
-        0.0, [](const dealii::Point<3>&) { return dealii::Tensor<1, 3>(); },
-        [](const dealii::Point<3>&) { return 0.0; },
-        p.coupling.two_way ? two_way->void_fraction() : std::vector<double>());
+    one_way->loads().confine(narrowest(p.domain));
+    return;
   }
-  const Vec3 size = p.domain.upper - p.domain.lower;
-  BodyLoads& loads = two_way ? two_way->loads() : one_way->loads();
-  loads.confine(std::min({size.x, size.y, size.z}));
+  domain.emplace(p.domain, comm);
+  domain->require_cells_for_all_ranks();
+  build_air();
+  start_air();
+  // A mesh that follows the seeds starts around them; every pass refines by one level.
+  for (int level = 0; adaptive() && level < p.refinement.max_level; ++level) {
+    adapt();
+    start_air();
+  }
+  adaptation_change = 0;
+}
+
+void Simulation::build_air() {
+  SimulationParameters& p = parameters;
+  const AirProperties properties{p.air.density, p.air.viscosity, p.air.formulation == "A"};
+  air.emplace(p.air, *domain);
+  build_location();
+  two_way.emplace(p.coupling, p.kernel_width(), *air, location, seeds, p.effects, properties, p.dem.gravity,
+                  comm);
+  two_way->loads().confine(narrowest(p.domain));
+}
+
+void Simulation::build_location() {
+  std::array<unsigned int, 3> cells;
+  for (int d = 0; d < 3; ++d) cells[d] = static_cast<unsigned int>(parameters.domain.cells[d]);
+  location.build(domain->triangulation(), as_point(parameters.domain.lower),
+                 as_point(parameters.domain.upper), cells);
+}
+
+void Simulation::start_air() {
+  air->set_initial(
+      0.0, [](const dealii::Point<3>&) { return dealii::Tensor<1, 3>(); },
+      [](const dealii::Point<3>&) { return 0.0; }, two_way->void_fraction());
+}
+
+void Simulation::adapt() {
+  std::vector<dealii::Point<3>> centres;
+  for (int s = 0; s < seeds.n_seeds(); ++s) centres.push_back(as_point(seeds.seed_state(s).centre));
+  if (!flag_cells(parameters.refinement, *domain, air->layout(), two_way->void_fraction(),
+                  air->velocity_jump(), centres))
+    return;
+  const dealii::Tensor<1, 3> before = air->momentum();
+  air->refine([this](const QuadratureLayout<3>&) {
+    build_location();
+    return two_way->void_fraction();
+  });
+  if (before.norm() > 0)
+    adaptation_change = std::max(adaptation_change, (air->momentum() - before).norm() / before.norm());
 }
 
 void Simulation::add_seeds() {
@@ -55,6 +96,8 @@ void Simulation::advance(double dt) {
     two_way->advance(dt);
   else
     one_way->advance(dt);
+  ++n_steps;
+  if (adaptive() && n_steps % parameters.refinement.interval == 0) adapt();
 }
 
 Vec3 Simulation::force_on_seed(int seed) const {
@@ -95,17 +138,31 @@ std::string Simulation::describe() const {
   return text.str();
 }
 
-void Simulation::save(std::ostream& seeds_out, std::ostream& air_out, std::ostream& coupling_out) const {
+void Simulation::save(std::ostream& seeds_out, std::ostream& air_out, std::ostream& coupling_out,
+                      const std::string& mesh_prefix) const {
   seeds.save(seeds_out);
   parameters.effects.save(coupling_out);
+  write_binary(coupling_out, n_steps);
+  write_binary(coupling_out, adaptation_change);
+  if (adaptive()) domain->save(mesh_prefix);
   if (air) air->save(air_out);
   if (two_way) two_way->save(coupling_out);
   if (one_way) one_way->save(coupling_out);
 }
 
-void Simulation::load(std::istream& seeds_in, std::istream& air_in, std::istream& coupling_in) {
+void Simulation::load(std::istream& seeds_in, std::istream& air_in, std::istream& coupling_in,
+                      const std::string& mesh_prefix) {
   seeds.load(seeds_in);
   parameters.effects.load(coupling_in);
+  read_binary(coupling_in, n_steps);
+  read_binary(coupling_in, adaptation_change);
+  if (adaptive()) {
+    two_way.reset();
+    air.reset();
+    domain.emplace(parameters.domain, comm);
+    domain->load(mesh_prefix);
+    build_air();
+  }
   if (air) air->load(air_in);
   if (two_way) two_way->load(coupling_in);
   if (one_way) one_way->load(coupling_in);

@@ -47,7 +47,6 @@ void SimulationParameters::declare(Parameters& p) {
   domain.declare(p);
   {
     const auto section = p.section("Air domain", "");
-    const auto inner = p.section("Adaptive refinement", "Where the mesh follows seeds and flow.");
     refinement.declare(p);
   }
   air.declare(p);

@@ -27,7 +27,9 @@ class CoupledStep {
               const PointLocation<3>& location, Dem& dem, EffectSet& effects, const AirProperties& air,
               const Vec3& gravity, MPI_Comm comm);
 
-  /// Void fraction of the seeds at their present place; before the first step, and after refinement.
+  /// The void fraction that the air holds at present, on the mesh as it is now: of the seeds' places at the
+  /// start of the last step (before the first one, their places now). For the air's initial state and after a
+  /// change of the mesh.
   std::vector<double> void_fraction();
 
   void advance(double dt);

@@ -46,11 +46,22 @@ class Simulation {
   /// What --dry-run prints.
   std::string describe() const;
 
-  void save(std::ostream& seeds_out, std::ostream& air_out, std::ostream& coupling_out) const;
-  void load(std::istream& seeds_in, std::istream& air_in, std::istream& coupling_in);
+  /// Largest change of the air's momentum by moving it to an adapted mesh, relative to its momentum.
+  double momentum_change_by_adaptation() const { return adaptation_change; }
+
+  /// \param mesh_prefix where the mesh is written to or read from (only meshes that are adapted).
+  void save(std::ostream& seeds_out, std::ostream& air_out, std::ostream& coupling_out,
+            const std::string& mesh_prefix) const;
+  void load(std::istream& seeds_in, std::istream& air_in, std::istream& coupling_in,
+            const std::string& mesh_prefix);
 
  private:
   void add_seeds();
+  void build_air();
+  void build_location();
+  void start_air();
+  void adapt();
+  bool adaptive() const { return domain && parameters.refinement.interval > 0; }
 
   SimulationParameters& parameters;
   MPI_Comm comm;
@@ -61,6 +72,8 @@ class Simulation {
   PointLocation<3> location;
   std::optional<CoupledStep> two_way;
   std::optional<OneWayStep> one_way;
+  long n_steps = 0;
+  double adaptation_change = 0;
 };
 
 }  // namespace seedflow

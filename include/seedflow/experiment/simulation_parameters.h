@@ -5,6 +5,7 @@
 #include "seedflow/fluid/parameters.h"
 #include "seedflow/fluid/prescribed_air.h"
 #include "seedflow/mesh/domain.h"
+#include "seedflow/mesh/refinement.h"
 #include "seedflow/seeds/dem.h"
 #include "seedflow/seeds/template_parameters.h"
 
@@ -41,6 +42,7 @@ struct SimulationParameters {
   RunParameters run;
   std::string air_model = "navier-stokes";  ///< navier-stokes | prescribed
   DomainParameters domain;
+  RefinementParameters refinement;
   FluidParameters air;
   PrescribedAirParameters prescribed;
   SeedsParameters seeds;
