@@ -65,6 +65,7 @@ TEST_F(Conservation, ThroughOpenSides) {
 // A seed that lands: what the floor takes is booked, too.
 TEST_F(Conservation, WithContactAtTheFloor) {
   expect_balanced({"Seeds/Position=11 mm, 13 mm, 2.05 mm", "Seeds/Velocity=0, 0, -0.1 m/s"});
+  EXPECT_GT(read_series(out() / "seeds.csv")["velocity z"].back(), 0.05);  // it bounced
 }
 
 }  // namespace

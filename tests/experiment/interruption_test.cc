@@ -77,7 +77,7 @@ TEST_F(Interruption, LiteralModelInterruptedFromTheKeyboard) {
 
 // The launcher passes signals on as SIGUSR1, which mpirun forwards to its processes.
 TEST_F(Interruption, TwoRanks) {
-  expect_stop_and_resume("USR1", long_run, 2);
+  expect_stop_and_resume("USR1", with(long_run, "Seeds motion/Time step=1.5e-6"), 2);
 }
 
 TEST_F(Interruption, DuringTheSetUp) {
