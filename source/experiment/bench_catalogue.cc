@@ -54,7 +54,7 @@ std::vector<BenchResult> locate() {
 std::vector<Bench> bench_catalogue() {
   return {{"air", "lid-driven cavity of 40^3 cells, implicit convection, pressure to 1e-6", air},
           {"seeds-bonded", "800 bonded seeds of 70 sub-spheres: bonds, motion, contact search", seeds_bonded},
-          {"locate", "56,000 sub-spheres to the cells of an adaptive mesh of 50,000 cells", locate}};
+          {"locate", "56,000 sub-spheres to the cells of an adaptive mesh of more than 50,000 cells", locate}};
 }
 
 }  // namespace seedflow

@@ -90,7 +90,9 @@ void SimulationParameters::check(const Parameters& p) {
     double coarsest = 0;
     for (int d = 0; d < 3; ++d)
       coarsest = std::max(coarsest, (domain.upper[d] - domain.lower[d]) / domain.cells[d]);
-    coarsest /= std::pow(2.0, domain.refinements);
+    // Cells around a seed have the highest level if the mesh follows the seeds.
+    const bool follows = refinement.interval > 0 && refinement.seed_distance > 0;
+    coarsest /= std::pow(2.0, follows ? refinement.max_level : domain.refinements);
     if (kernel_width() < 0.5 * coarsest)
       p.reject("Coupling/Kernel width",
                "the Gaussian's standard deviation is smaller than half a cell, so the mesh "
