@@ -33,6 +33,7 @@ void Fluid<dim, degree>::Implementation::set_up() {
   fields.u_old.resize(points * dim, 0.0);
   fields.u_older.resize(points * dim, 0.0);
   fields.theta.resize(points, 0.0);
+  domain_volume = domain.volume();
   momentum_matrix = std::make_unique<SparseMatrix>(space->structure);
   pressure_matrix = std::make_unique<SparseMatrix>(space->structure);
   momentum_preconditioner = make_preconditioner(

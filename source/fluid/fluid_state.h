@@ -57,6 +57,9 @@ struct Fluid<dim, degree>::Implementation {
   bool pressure_matrix_valid = false, multigrid_valid = false, multigrid_wanted = true;
   double inertia_factor = 0;  ///< rho a0/dt the pressure matrix was assembled with
 
+  double domain_volume = 0;  ///< V [m^dim], all ranks
+  /// The flow below which no balance can be judged, see MassBalance::flow.
+  double smallest_flow() const { return 1e-8 * domain_volume / coefficients.time.dt; }
   double time = 0, dt_old = 0;
   int steps_since_start = 0;
   MassBalance mass;

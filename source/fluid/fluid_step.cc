@@ -146,7 +146,7 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
     double imbalance = 0;
     for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i) imbalance += scalar_rhs.local_element(i);
     imbalance = sum(imbalance);
-    if (std::abs(imbalance) > 1e-8 * std::max(inflow, scale)) {
+    if (std::abs(imbalance) > 1e-8 * std::max({inflow, scale, smallest_flow()})) {
       std::ostringstream what;
       what << "the domain is closed, but inflow and change of void volume differ by " << imbalance
            << " m3/s.";
@@ -300,7 +300,7 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   balance.residual = scale > 0 ? left.norm() / scale : 0;
   const double in = *next++, out = *next++, growth = *next++, circulation = *next++, sum_residual = *next++;
   const double n_free = *next++, pressure_sum = *next++, whole_volume = *next++;
-  mass.flow = std::max({in, out, growth, circulation / std::pow(whole_volume, 1.0 / dim)});
+  mass.flow = std::max({in, out, growth, circulation / std::pow(whole_volume, 1.0 / dim), smallest_flow()});
   mass.largest = mass.flow > 0 ? largest / mass.flow : 0;
   mass.total = mass.flow > 0 ? std::abs(sum_residual) / mass.flow : 0;
   if (!boundary->has_open_side) {

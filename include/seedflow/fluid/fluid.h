@@ -24,7 +24,8 @@ struct MassBalance {
   double largest = 0;  ///< max_i |R_i| / flow
   double total = 0;    ///< |sum_i R_i| / flow
   /// The flow through the domain [m^dim/s]: the largest of the inflow through the sides, the change of void
-  /// volume sum |int d(eps)/dt|, and the circulation int eps |u| / V^(1/dim).
+  /// volume sum |int d(eps)/dt|, and the circulation int eps |u| / V^(1/dim). At least 1e-8 of the domain's volume
+  /// V per step: eps is known to 1e-16, so of a smaller flow no balance can be known to 1e-8.
   double flow = 0;
 };
 
