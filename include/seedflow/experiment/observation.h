@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace seedflow {
+
+/// A quantity an experiment produces beside measurements.
+struct Observable {
+  std::string name, unit;                   ///< "velocity", "m/s"
+  std::string coordinate, coordinate_unit;  ///< "time", "s"; "" where the quantity has none
+  std::string doc;
+};
+
+/// One value that is wanted of a run.
+struct WantedValue {
+  std::string quantity;
+  double coordinate = 0;  ///< SI
+};
+
+/// An input whose usual uncertainty the experiment knows.
+struct UsualUncertainty {
+  std::string name, path;
+  double standard_deviation = 0;
+  bool relative = true, each_condition = false;
+};
+
+/// A model of one condition that is ready to run again and again with changed numbers.
+struct PreparedRun {
+  /// The present value of a numeric entry, SI. InputError if there is none of that path.
+  std::function<double(const std::string& path)> value;
+  /// Runs with some entries changed and returns the wanted values in order. Independent of earlier calls.
+  /// Errors: InputError, RunError.
+  std::function<std::vector<double>(const std::vector<std::pair<std::string, double>>& changes,
+                                    const std::vector<WantedValue>& wanted)>
+      observe;
+  /// Entries that are on and did nothing in the base run ("" entries none); computed by running it.
+  std::function<std::vector<std::string>()> idle_effects;
+  std::string time_step;  ///< path of the entry whose halving shows the numerical error, or ""
+};
+
+/// How an experiment is used as a model of measurements.
+struct Observer {
+  std::vector<Observable> observables;
+  std::vector<UsualUncertainty> uncertainties;
+  /// Reads file and overrides.
+  std::function<PreparedRun(const std::string& prm, const std::vector<std::string>& overrides)> prepare;
+  /// Known beside every value, for the search of the place: "Reynolds number", ... (may be empty).
+  std::vector<std::string> regimes;
+};
+
+}  // namespace seedflow
