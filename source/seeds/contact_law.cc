@@ -1,6 +1,5 @@
 #include "seedflow/seeds/contact_law.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace seedflow {
@@ -14,40 +13,27 @@ ContactLaw::ContactLaw(const Material& a, const Material& b, const ContactProper
   beta = -log_e / std::sqrt(log_e * log_e + M_PI * M_PI);
   static_friction = properties.static_friction;
   rolling_friction = properties.rolling_friction;
+  // k_n = 4/3 E* a and k_t = 8 G* a make both damping coefficients multiples of sqrt(m* a).
+  normal_damping = beta * std::sqrt(20.0 / 3 * young);
+  tangential_damping = beta * std::sqrt(80.0 / 3 * shear);
 }
 
-ContactForce contact_force(const ContactLaw& law, const ContactState& c, double step, Vec3& spring) {
-  const double root = std::sqrt(c.reduced_radius * c.overlap);
-  const double normal_stiffness = 4.0 / 3 * law.young * root, tangential_stiffness = 8 * law.shear * root;
-  const double normal_speed = dot(c.velocity, c.normal);
-  const Vec3 slip = c.velocity - normal_speed * c.normal;
-  const double normal_force = normal_stiffness * c.overlap -
-                              law.beta * std::sqrt(5 * c.reduced_mass * normal_stiffness) * normal_speed;
-  ContactForce result;
-  result.repulsion = std::max(0.0, normal_force);
+double ContactLaw::reach(double) const {
+  return 0;
+}
 
-  const double length = norm(spring);
-  spring -= dot(spring, c.normal) * c.normal;
-  const double projected = norm(spring);
-  if (projected > 0) spring *= length / projected;
-  spring += step * slip;
-
-  const double limit = law.static_friction * result.repulsion;
-  const auto cut_to_limit = [&](Vec3& a) {
-    const double size = norm(a);
-    if (size <= limit) return false;
-    a *= limit / size;
-    return true;
-  };
-  Vec3 tangential = -tangential_stiffness * spring;
-  if (cut_to_limit(tangential)) {
-    spring = (-1 / tangential_stiffness) * tangential;
-  } else {
-    tangential -= law.beta * std::sqrt(10.0 / 3 * c.reduced_mass * tangential_stiffness) * slip;
-    cut_to_limit(tangential);
-  }
-  result.force = normal_force * c.normal + tangential;
-  return result;
+ContactForce contact_force(const ContactLaw& law, const ContactState& state, double step, Vec3& spring) {
+  ContactKinematics<double> c;
+  c.normal = state.normal;
+  c.overlap = state.overlap;
+  c.reduced_radius = state.reduced_radius;
+  c.reduced_mass = state.reduced_mass;
+  c.velocity = state.velocity;
+  ContactMemory<double> memory;
+  memory.spring = spring;
+  const auto action = contact_action<Rolling::none, Cohesion::none>(law, c, step, memory);
+  spring = memory.spring;
+  return {action.force, action.repulsion};
 }
 
 }  // namespace seedflow

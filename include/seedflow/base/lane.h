@@ -15,8 +15,7 @@ inline constexpr int lane_width = 2;
 #endif
 
 typedef double Lanes __attribute__((vector_size(lane_width * sizeof(double))));
-typedef long long LaneMask
-    __attribute__((vector_size(lane_width * sizeof(long long))));  ///< -1 true, 0 false
+typedef decltype(Lanes{} > Lanes{}) LaneMask;  ///< -1 true, 0 false
 
 #define SEEDFLOW_INLINE inline __attribute__((always_inline))
 
@@ -41,6 +40,20 @@ SEEDFLOW_INLINE Lanes lane_sqrt(Lanes a) {
   Lanes r;
   for (int i = 0; i < lane_width; ++i) r[i] = __builtin_sqrt(a[i]);
   return r;
+}
+
+// The same for one number, so that a formula can be written once for double and Lanes.
+SEEDFLOW_INLINE double select(bool mask, double a, double b) {
+  return mask ? a : b;
+}
+SEEDFLOW_INLINE double lane_max(double a, double b) {
+  return a > b ? a : b;
+}
+SEEDFLOW_INLINE double lane_min(double a, double b) {
+  return a < b ? a : b;
+}
+SEEDFLOW_INLINE double lane_sqrt(double a) {
+  return __builtin_sqrt(a);
 }
 
 SEEDFLOW_INLINE double lane_sum(Lanes a) {

@@ -15,6 +15,20 @@ struct LaneVec3 {
   Vec3 get(int lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
+/// The vector made of numbers of type Real: Vec3 for double, LaneVec3 for Lanes.
+template <class Real>
+struct VectorOfReal;
+template <>
+struct VectorOfReal<double> {
+  using type = Vec3;
+};
+template <>
+struct VectorOfReal<Lanes> {
+  using type = LaneVec3;
+};
+template <class Real>
+using VectorOf = typename VectorOfReal<Real>::type;
+
 /// One unit quaternion per lane.
 struct LaneQuaternion {
   Lanes w = Lanes{} + 1.0;
@@ -29,6 +43,9 @@ SEEDFLOW_INLINE LaneVec3 operator+(const LaneVec3& a, const LaneVec3& b) {
 }
 SEEDFLOW_INLINE LaneVec3 operator-(const LaneVec3& a, const LaneVec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+SEEDFLOW_INLINE LaneVec3 operator-(const LaneVec3& a) {
+  return {-a.x, -a.y, -a.z};
 }
 SEEDFLOW_INLINE LaneVec3 operator*(Lanes s, const LaneVec3& a) {
   return {s * a.x, s * a.y, s * a.z};
@@ -47,6 +64,9 @@ SEEDFLOW_INLINE Lanes dot(const LaneVec3& a, const LaneVec3& b) {
 }
 SEEDFLOW_INLINE LaneVec3 cross(const LaneVec3& a, const LaneVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+SEEDFLOW_INLINE Lanes norm(const LaneVec3& a) {
+  return lane_sqrt(dot(a, a));
 }
 SEEDFLOW_INLINE LaneVec3 broadcast(const Vec3& a) {
   return {broadcast(a.x), broadcast(a.y), broadcast(a.z)};
