@@ -27,6 +27,9 @@ struct Fluid<dim, degree>::Implementation {
   void take(const Exchange<dim>& exchange);
   void solve_momentum();
   void solve_pressure();
+  /// u of the end of the step with its mass residual in scalar_rhs, boundary fluxes included; returns the
+  /// integrals and the inflow.
+  std::pair<StepIntegrals<dim>, double> correct();
   void finish_step();
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
 
@@ -55,7 +58,8 @@ struct Fluid<dim, degree>::Implementation {
   std::vector<double> preconditioned_values;  ///< matrix the multigrid was built from; empty: the present one
   int iterations_when_built = 0;
   bool pressure_matrix_valid = false, multigrid_valid = false, multigrid_wanted = true;
-  double inertia_factor = 0;  ///< rho a0/dt the pressure matrix was assembled with
+  double pressure_target = 0;  ///< residual the pressure of this step is solved to [m^dim/s]
+  double inertia_factor = 0;   ///< rho a0/dt the pressure matrix was assembled with
 
   double domain_volume = 0;  ///< V [m^dim], all ranks
   /// The flow below which no balance can be judged, see MassBalance::flow.

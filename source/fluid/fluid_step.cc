@@ -176,6 +176,7 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
       whole += std::pow(scalar_rhs.local_element(i) + pressure_matrix->row_times(i, fields.p), 2);
   const double tolerance =
       std::max(parameters.pressure_tolerance * std::min(std::sqrt(sum(whole)), scale), 1e-15 * scale);
+  pressure_target = std::max(2 * tolerance, 1e-13 * scale);
   if (steps_since_start > 2) {
     phi_before.sadd(-1.0, 2.0, fields.phi);
     phi_before.swap(fields.phi);
@@ -214,11 +215,49 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
 }
 
 template <int dim, int degree>
+std::pair<StepIntegrals<dim>, double> Fluid<dim, degree>::Implementation::correct() {
+  StepIntegrals<dim> integrals = correct_velocity(*space, coefficients, fields, scalar_rhs);
+  const auto subtract_flux = [&] {
+    const double inflow = boundary->subtract_flux(fields.u, fields.eps, scalar_rhs).first;
+    scalar_rhs.compress(dealii::VectorOperation::add);
+    return inflow;
+  };
+  const double inflow = subtract_flux();
+  const auto residual = [&] {
+    double square = 0;
+    for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i)
+      if (!boundary->pressure_fixed[i]) square += std::pow(scalar_rhs.local_element(i), 2);
+    return std::sqrt(sum(square));
+  };
+  // Where a large pressure meets freely moving air (the front of a bed with strong drag), the round-off of
+  // the pressure alone moves that air. Its effect is seen in the velocity, which is known to full precision,
+  // and taken out by a further, small pressure, whose own round-off does not matter.
+  NodalVector psi;
+  double left = residual();
+  for (int pass = 0; pass < 3 && left > pressure_target; ++pass) {
+    space->initialize(psi);
+    statistics.pressure_iterations +=
+        std::max(0, conjugate_gradients(*pressure_matrix, *pressure_preconditioner, boundary->pressure_fixed,
+                                        !boundary->has_open_side, psi, scalar_rhs, 0.5 * pressure_target,
+                                        parameters.max_iterations));
+    psi.update_ghost_values();
+    space->set_constrained(psi);
+    refine_velocity(*space, coefficients, fields, psi, integrals, scalar_rhs);
+    subtract_flux();
+    fields.phi.zero_out_ghost_values();
+    psi.zero_out_ghost_values();
+    fields.phi += psi;
+    const double before = left;
+    left = residual();
+    if (left > 0.5 * before) break;  // as far as the velocity's own round-off allows
+  }
+  return {integrals, inflow};
+}
+
+template <int dim, int degree>
 void Fluid<dim, degree>::Implementation::finish_step() {
   const CpuTimer timer(statistics.update);
-  const StepIntegrals<dim> integrals = correct_velocity(*space, coefficients, fields, scalar_rhs);
-  const double inflow = boundary->subtract_flux(fields.u, fields.eps, scalar_rhs).first;
-  scalar_rhs.compress(dealii::VectorOperation::add);
+  const auto [integrals, inflow] = correct();
 
   // Residuals of mass; at open sides they are the outflow instead.
   double through_open_sides = 0, largest = 0, total = 0;

@@ -142,13 +142,62 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
   return result;
 }
 
-#define SEEDFLOW_PRESSURE(dim, degree)                                                                  \
-  template void assemble_pressure_matrix(const NodalSpace<dim, degree>&, const StepCoefficients&,       \
-                                         const FlowFields<dim>&, SparseMatrix&);                        \
-  template double assemble_pressure_rhs(const NodalSpace<dim, degree>&, const StepCoefficients&,        \
-                                        const FlowFields<dim>&, NodalVector&);                          \
-  template StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>&, const StepCoefficients&, \
-                                               FlowFields<dim>&, NodalVector&);
+template <int dim, int degree>
+void refine_velocity(const NodalSpace<dim, degree>& space, const StepCoefficients& c, FlowFields<dim>& fields,
+                     const NodalVector& psi, StepIntegrals<dim>& integrals, NodalVector& mass_residual) {
+  constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
+  const auto& shape = space.shape;
+  mass_residual = 0;
+  Lanes change[dim] = {}, exchange[dim] = {}, pressure[dim] = {}, share_sum[dim] = {}, momentum[dim] = {};
+  for (std::size_t group = 0; group < space.n_groups; ++group) {
+    Lanes nodal[n], load[n_q][dim + 1];
+    space.gather(psi, group, nodal);
+    for (int q = 0; q < n_q; ++q) {
+      const CellPoint<dim> at(space, group, q);
+      const std::size_t k = group * n_q + q;
+      const Lanes eps = fields.eps[k], beta = fields.beta[k], w = at.weight, share = c.share(eps);
+      const Lanes inertia = c.inertia(eps, beta);
+      Lanes g[dim], velocity[dim];
+      gradient(space, at, q, nodal, g);
+      for (int d = 0; d < dim; ++d) {
+        const Lanes more = -share / inertia * g[d];
+        velocity[d] = fields.u_older[k * dim + d] + more;
+        change[d] += w * (inertia - beta) * more;
+        exchange[d] -= w * beta * more;
+        pressure[d] -= w * share * g[d];
+        share_sum[d] += w * (1.0 - share) * g[d];
+        momentum[d] += w * c.density * eps * more;
+        fields.u_older.at(k * dim + d) = velocity[d];
+      }
+      load[q][0] = -w *
+                   (c.time.now * eps + c.time.old * fields.eps_old[k] + c.time.older * fields.eps_older[k]) /
+                   c.time.dt;
+      at.to_reference(velocity, load[q] + 1);
+      for (int e = 0; e < dim; ++e) load[q][1 + e] *= w * eps;
+    }
+    Lanes r[n] = {};
+    shape.integrate(load, r);
+    space.scatter(r, group, mass_residual);
+  }
+  mass_residual.compress(dealii::VectorOperation::add);
+  for (int d = 0; d < dim; ++d) {
+    integrals.change[d] += lane_sum(change[d]);
+    integrals.exchange[d] += lane_sum(exchange[d]);
+    integrals.pressure[d] += lane_sum(pressure[d]);
+    integrals.share[d] += lane_sum(share_sum[d]);
+    integrals.momentum[d] += lane_sum(momentum[d]);
+  }
+}
+
+#define SEEDFLOW_PRESSURE(dim, degree)                                                                     \
+  template void assemble_pressure_matrix(const NodalSpace<dim, degree>&, const StepCoefficients&,          \
+                                         const FlowFields<dim>&, SparseMatrix&);                           \
+  template double assemble_pressure_rhs(const NodalSpace<dim, degree>&, const StepCoefficients&,           \
+                                        const FlowFields<dim>&, NodalVector&);                             \
+  template StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>&, const StepCoefficients&,    \
+                                               FlowFields<dim>&, NodalVector&);                            \
+  template void refine_velocity(const NodalSpace<dim, degree>&, const StepCoefficients&, FlowFields<dim>&, \
+                                const NodalVector&, StepIntegrals<dim>&, NodalVector&);
 SEEDFLOW_PRESSURE(2, 1)
 SEEDFLOW_PRESSURE(3, 1)
 SEEDFLOW_PRESSURE(2, 2)

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 #include "manufactured.h"
 
 // Flows with closed-form answers, the balances at open sides, moving void fractions, refinement.
@@ -111,9 +113,8 @@ TEST(Flow, FreeStreamIsPreserved) {
 }
 
 /// Darcy flow through a bed whose drag and void fraction jump between two cells: u = Q/eps, dp/dx = -beta u /
-/// c. With the strongest drag the pressure is 4e7 Pa in the bed. Its round-off of about 1e-8 Pa is felt by
-/// the free air in the cell beside it as a velocity of dt/rho grad p = 3e-8 m/s: mass is kept to 1e-5 then,
-/// instead of 1e-8.
+/// c. With the strongest drag the pressure is 4e7 Pa in the bed, and its round-off of 1e-8 Pa would move the
+/// free air in front of it by dt/rho grad p = 3e-8 m/s if the velocity were not refined.
 TEST(Flow, BedWithSharpFront) {
   for (const double beta : {1e2, 1e5, 1e8}) {
     DomainParameters box;
@@ -130,20 +131,26 @@ TEST(Flow, BedWithSharpFront) {
         exchange.void_fraction[i] = 0.4;
         exchange.drag_coefficient[i] = beta;
       }
+    double worst = 0;
     for (int s = 0; s < 40; ++s) {
       fluid.advance(0.1, exchange);
-      const double limit = beta > 1e6 ? 1e-5 : 1e-8;
-      EXPECT_LT(fluid.mass_balance().largest, limit) << beta;
-      EXPECT_LT(fluid.mass_balance().total, limit) << beta;
+      worst = std::max({worst, fluid.mass_balance().largest, fluid.mass_balance().total});
+      EXPECT_LT(fluid.mass_balance().largest, 1e-8) << beta;
+      EXPECT_LT(fluid.mass_balance().total, 1e-8) << beta;
       EXPECT_LT(fluid.momentum_balance().residual, 1e-8) << beta;
     }
+    std::cout << "drag " << beta << " kg/(m3 s): mass residual " << worst << " of the flow\n";
     const auto u = fluid.velocity();
     const auto g = fluid.pressure_gradient();
     for (std::size_t i = 0; i < u.size(); ++i) {
       const double x = fluid.layout().position[i][0];
       const double exact = 0.3 / exchange.void_fraction[i];
-      if (std::abs(x - 0.5) > 0.1) EXPECT_NEAR(u[i][0], exact, 0.02 * exact) << beta << " at " << x;
-      if (x > 0.6) EXPECT_NEAR(g[i][0], -beta * exact, 0.02 * beta * exact) << beta << " at " << x;
+      if (std::abs(x - 0.5) > 0.1) {
+        EXPECT_NEAR(u[i][0], exact, 0.02 * exact) << beta << " at " << x;
+      }
+      if (x > 0.6) {
+        EXPECT_NEAR(g[i][0], -beta * exact, 0.02 * beta * exact) << beta << " at " << x;
+      }
     }
   }
 }

@@ -65,4 +65,12 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space,
                                     const StepCoefficients& coefficients, FlowFields<dim>& fields,
                                     NodalVector& mass_residual);
 
+/// Takes kappa grad(psi) from the velocity of the end of the step (in fields.u_older, after
+/// correct_velocity), adds what that changes to the integrals (all but circulation and growth), and computes
+/// the mass residual of the result, again without boundary fluxes.
+template <int dim, int degree>
+void refine_velocity(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
+                     FlowFields<dim>& fields, const NodalVector& psi, StepIntegrals<dim>& integrals,
+                     NodalVector& mass_residual);
+
 }  // namespace seedflow
