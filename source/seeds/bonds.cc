@@ -5,6 +5,7 @@
 
 #include "seedflow/base/binary.h"
 #include "seedflow/base/parameters.h"
+#include "seedflow/seeds/copy_lane.h"
 
 namespace seedflow {
 
@@ -64,6 +65,22 @@ Bonds::Bonds(const SeedTemplate& model, const BondParameters& bond_parameters)
 void Bonds::add_block() {
   if (parameters.can_break()) intact.insert(intact.end(), constants.size(), broadcast(1.0));
   if (parameters.form == "incremental") history.insert(history.end(), constants.size(), History{});
+}
+
+void Bonds::rearrange(const std::vector<int>& from) {
+  const std::vector<Lanes> old_intact = std::move(intact);
+  const std::vector<History> old_history = std::move(history);
+  intact.clear(), history.clear();
+  const auto copy = [&](auto& now, const auto& old, std::size_t k) {
+    if (!now.empty())
+      copy_lane(&now[k / lane_width * n_bonds()], k % lane_width, &old[from[k] / lane_width * n_bonds()],
+                from[k] % lane_width, n_bonds());
+  };
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    if (k % lane_width == 0) add_block();
+    copy(intact, old_intact, k);
+    copy(history, old_history, k);
+  }
 }
 
 int Bonds::n_broken(int b, int lane) const {

@@ -63,7 +63,8 @@ void inherit(std::vector<Contacts::Pair>& now, const std::vector<Contacts::Pair>
 }  // namespace
 
 void Contacts::search(const std::vector<SphereAddress>& spheres, const std::vector<int>& first,
-                      const std::vector<Wall>& walls, const ContactParameters& parameters) {
+                      const std::vector<Wall>& walls, const std::vector<char>& wall_active,
+                      const ContactParameters& parameters) {
   const int n_seeds = static_cast<int>(first.size()) - 1;
   std::vector<Vec3> x(spheres.size());
   double smallest = 1e300, largest = 0;
@@ -105,16 +106,17 @@ void Contacts::search(const std::vector<SphereAddress>& spheres, const std::vect
       for (int i : near_a)
         for (int j : near_b) {
           const double gap = spheres[i].radius + spheres[j].radius + skin;
-          if (norm_square(x[i] - x[j]) < gap * gap) pairs.push_back({i, j, {}, false});
+          if (norm_square(x[i] - x[j]) < gap * gap) pairs.push_back({i, j, {}, false, 0});
         }
     });
 
   for (int s = 0; s < n_seeds; ++s)
     for (int w = 0; w < static_cast<int>(walls.size()); ++w) {
+      if (!wall_active[w]) continue;
       if (dot(balls[s].centre - walls[w].point, walls[w].normal) > balls[s].radius + skin) continue;
       for (int i = first[s]; i < first[s + 1]; ++i)
         if (dot(x[i] - walls[w].point, walls[w].normal) < spheres[i].radius + skin)
-          wall_pairs.push_back({i, w, {}, false});
+          wall_pairs.push_back({i, w, {}, false, 0});
     }
 
   inherit(pairs, old_pairs);

@@ -65,6 +65,7 @@ void Contacts::add_forces(const std::vector<SphereAddress>& spheres, const std::
     const Vec3 rolling =
         rolling_torque(spin_a - spin_b, own.rolling_friction * f.repulsion * 2 * ra * rb / (ra + rb),
                        a.inertia * b.inertia / (a.inertia + b.inertia), step);
+    pair.normal_force = f.repulsion;
     *a.in_contact = *b.in_contact = 1;
     a.force->force.add(a.lane, f.force);
     b.force->force.add(b.lane, -f.force);
@@ -92,11 +93,28 @@ void Contacts::add_forces(const std::vector<SphereAddress>& spheres, const std::
     const ContactForce f = contact_force(own, c, step, pair.spring);
     const Vec3 rolling = rolling_torque(spin, own.rolling_friction * f.repulsion * rolling_radius(a, x + arm),
                                         a.inertia, step);
+    pair.normal_force = f.repulsion;
     *a.in_contact = 1;
     a.force->force.add(a.lane, f.force);
     a.force->torque.add(a.lane, cross(arm, f.force) + rolling);
     wall_force[pair.second] += f.force;
   }
+}
+
+void Contacts::renumber(const std::vector<int>& new_number) {
+  const auto move = [&](std::vector<Pair>& list, bool both) {
+    std::size_t kept = 0;
+    for (const Pair& old : list) {
+      Pair pair = old;
+      pair.first = new_number[old.first];
+      if (both) pair.second = new_number[old.second];
+      if (pair.first >= 0 && pair.second >= 0) list[kept++] = pair;
+    }
+    list.resize(kept);
+  };
+  move(pairs, true);
+  move(wall_pairs, false);
+  forget();
 }
 
 int Contacts::n_touching() const {

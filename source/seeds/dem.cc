@@ -10,7 +10,8 @@
 
 namespace seedflow {
 
-Dem::Dem(const DemParameters& dem_parameters) : parameters(dem_parameters) {}
+Dem::Dem(const DemParameters& dem_parameters, MPI_Comm dem_communicator)
+    : parameters(dem_parameters), communicator(dem_communicator) {}
 
 SphereLanes& Dem::lanes_of(int seed, int sphere, int& lane) {
   SeedStore& s = store[slots[seed].store];
@@ -121,13 +122,13 @@ void Dem::refresh_addresses() {
 
 void Dem::sum_contacts(double step) {
   double fastest = largest_speed;
-  for (Wall& w : wall) {
+  for (Wall& w : all_walls) {
     w.point += step * w.velocity;
     fastest = std::max(fastest, norm(w.velocity));
   }
   if (!contacts.is_listed() || contacts.moved(fastest * step))
-    contacts.search(address, first, wall, parameters.contacts);
-  contacts.add_forces(address, wall, step, wall_force);
+    contacts.search(address, first, all_walls, wall_active, parameters.contacts);
+  contacts.add_forces(address, all_walls, step, wall_force);
 }
 
 void Dem::sum_bonds(double step) {
@@ -164,7 +165,7 @@ void Dem::move(double bond_step, const MotionStep& motion) {
     }
   }
   largest_speed = std::sqrt(fastest);
-  for (std::size_t w = 0; w < wall.size(); ++w) wall_impulse[w] += motion.kick * wall_force[w];
+  for (std::size_t w = 0; w < all_walls.size(); ++w) wall_impulse[w] += motion.kick * wall_force[w];
 }
 
 void Dem::advance(double duration) {

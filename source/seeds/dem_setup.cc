@@ -42,12 +42,13 @@ int Dem::add_wall(const Wall& w) {
   if (w.material < 0 || w.material >= static_cast<int>(material.size()))
     throw InputError("Wall '" + w.name + "': there is no material number " + std::to_string(w.material) +
                      ".");
-  wall.push_back(w);
-  wall.back().normal /= length;
+  all_walls.push_back(w);
+  all_walls.back().normal /= length;
+  wall_active.push_back(1);
   wall_impulse.emplace_back();
   wall_force.emplace_back();
   forces_known = false;
-  return static_cast<int>(wall.size()) - 1;
+  return static_cast<int>(all_walls.size()) - 1;
 }
 
 void Dem::add_box(const Vec3& a, const Vec3& b, int material_index) {
@@ -62,7 +63,12 @@ void Dem::add_box(const Vec3& a, const Vec3& b, int material_index) {
 }
 
 void Dem::set_wall_velocity(int w, const Vec3& velocity) {
-  wall.at(w).velocity = velocity;
+  all_walls.at(w).velocity = velocity;
+}
+
+void Dem::set_wall_active(int w, bool active) {
+  wall_active.at(w) = active;
+  contacts.forget();
 }
 
 int Dem::add_template(const SeedTemplate& model, int material_index, bool rigid) {
@@ -86,24 +92,6 @@ void Dem::set_domain(const Vec3& a, const Vec3& b) {
   bounded = true;
 }
 
-int Dem::add_seed(int seed_template, const Vec3& centre, const Quaternion& orientation, const Vec3& velocity,
-                  const Vec3& spin) {
-  if (seed_template < 0 || seed_template >= static_cast<int>(store.size()))
-    throw InputError("There is no seed template number " + std::to_string(seed_template) + ".");
-  const int number = n_seeds();
-  SeedStore& s = store[seed_template];
-  const int slot = s.add(number, centre, normalized(orientation), velocity, spin);
-  if (slot % lane_width == 0) bonds[seed_template].add_block();
-  slots.push_back({seed_template, slot});
-  first.push_back(n_spheres() + s.n_spheres());
-  sphere_radius.insert(sphere_radius.end(), s.model.radius.begin(), s.model.radius.end());
-  sphere_mass.insert(sphere_mass.end(), s.model.sphere_mass.begin(), s.model.sphere_mass.end());
-  forces_known = false;
-  load_step = 0;
-  address.clear();
-  return number;
-}
-
 std::vector<TimeStepLimit> Dem::time_step_limits() const {
   std::vector<TimeStepLimit> limits;
   const TimeStepParameters& p = parameters.limits;
@@ -123,7 +111,7 @@ std::vector<TimeStepLimit> Dem::time_step_limits() const {
           hertz_time(r / 2, mass / 2, contacts.law(s.material, s.material).young, p.impact_speed);
       if (between_seeds < hertz.full)
         hertz.full = between_seeds, hertz.cause = "Hertz contact of a " + which.str();
-      for (const Wall& w : wall) {
+      for (const Wall& w : all_walls) {
         const double at_wall =
             hertz_time(r, mass, contacts.law(s.material, w.material).young, p.impact_speed);
         if (at_wall < hertz.full)
@@ -156,16 +144,16 @@ void Dem::check() {
   }
   refresh_addresses();
   Contacts trial = contacts;
-  trial.search(address, first, wall, parameters.contacts);
+  trial.search(address, first, all_walls, wall_active, parameters.contacts);
   Contacts::Pair pair{};
   bool at_wall = false;
-  const double overlap = trial.largest_overlap(address, wall, pair, at_wall);
+  const double overlap = trial.largest_overlap(address, all_walls, pair, at_wall);
   if (overlap > 1e-6 * (n_spheres() > 0 ? sphere_radius[pair.first] : 1)) {
     const int seed = seed_of_sphere(pair.first);
     std::ostringstream text;
     text << "Seed " << seed << " at " << text_of(seed_state(seed).centre) << " starts " << overlap
          << " m inside "
-         << (at_wall ? "wall '" + wall[pair.second].name + "'"
+         << (at_wall ? "wall '" + all_walls[pair.second].name + "'"
                      : "seed " + std::to_string(seed_of_sphere(pair.second)))
          << ". Move the seed.";
     throw InputError(text.str());

@@ -179,13 +179,17 @@ std::size_t Dem::bytes() const {
 void Dem::save(std::ostream& out) const {
   write_binary(out, lane_width);
   write_binary(out, n_spheres());
+  write_binary(out, labels);
+  write_binary(out, groups);
+  write_binary(out, next_label);
+  write_binary(out, wall_active);
   write_binary(out, now);
   write_binary(out, substeps);
   write_binary(out, largest_speed);
   write_binary(out, forces_known);
   write_binary(out, wall_impulse);
   write_binary(out, wall_force);
-  for (const Wall& w : wall) write_binary(out, w.point), write_binary(out, w.velocity);
+  for (const Wall& w : all_walls) write_binary(out, w.point), write_binary(out, w.velocity);
   contacts.save(out);
   for (std::size_t t = 0; t < store.size(); ++t) {
     write_binary(out, store[t].sphere);
@@ -207,16 +211,20 @@ void Dem::load(std::istream& in) {
   if (spheres != n_spheres())
     throw RunError("The saved state holds " + std::to_string(spheres) + " sub-spheres, this set-up has " +
                    std::to_string(n_spheres()) + ". Resume with the input the state was made with.");
+  read_binary(in, labels);
+  read_binary(in, groups);
+  read_binary(in, next_label);
+  read_binary(in, wall_active);
   read_binary(in, now);
   read_binary(in, substeps);
   read_binary(in, largest_speed);
   read_binary(in, forces_known);
   read_binary(in, wall_impulse);
   read_binary(in, wall_force);
-  if (wall_impulse.size() != wall.size())
+  if (wall_impulse.size() != all_walls.size())
     throw RunError("The saved state has " + std::to_string(wall_impulse.size()) + " walls, this set-up has " +
-                   std::to_string(wall.size()) + ". Resume with the input the state was made with.");
-  for (Wall& w : wall) read_binary(in, w.point), read_binary(in, w.velocity);
+                   std::to_string(all_walls.size()) + ". Resume with the input the state was made with.");
+  for (Wall& w : all_walls) read_binary(in, w.point), read_binary(in, w.velocity);
   contacts.load(in);
   for (std::size_t t = 0; t < store.size(); ++t) {
     read_binary(in, store[t].sphere);

@@ -1,22 +1,29 @@
 #include "seedflow/seeds/seed_store.h"
 
+#include <utility>
+
+#include "seedflow/seeds/copy_lane.h"
+
 namespace seedflow {
+
+void SeedStore::add_block() {
+  const int b = n_blocks();
+  occupied.push_back(Lanes{});
+  sphere.resize(static_cast<std::size_t>(b + 1) * n_spheres());
+  force.resize(sphere.size());
+  in_contact.push_back(0);
+  if (rigid) body.emplace_back();
+  if (!load.empty()) load.resize(sphere.size());
+  for (int i = 0; i < n_spheres(); ++i)
+    for (int l = 0; l < lane_width; ++l) block(b)[i].position.set(l, model.position[i]);
+}
 
 int SeedStore::add(int seed_number, const Vec3& centre, const Quaternion& orientation, const Vec3& velocity,
                    const Vec3& spin) {
   const int n = n_spheres();
   const int slot = static_cast<int>(seed.size());
   const int lane = slot % lane_width, b = slot / lane_width;
-  if (lane == 0) {
-    occupied.push_back(Lanes{});
-    sphere.resize(static_cast<std::size_t>(b + 1) * n);
-    force.resize(sphere.size());
-    in_contact.push_back(0);
-    if (rigid) body.emplace_back();
-    if (!load.empty()) load.resize(sphere.size());
-    for (int i = 0; i < n; ++i)
-      for (int l = 0; l < lane_width; ++l) block(b)[i].position.set(l, model.position[i]);
-  }
+  if (lane == 0) add_block();
   seed.push_back(seed_number);
   occupied[b][lane] = 1.0;
   for (int i = 0; i < n; ++i) {
@@ -36,6 +43,25 @@ int SeedStore::add(int seed_number, const Vec3& centre, const Quaternion& orient
     body[b].angular_momentum.set(lane, rotate(orientation, momentum));
   }
   return slot;
+}
+
+void SeedStore::rearrange(const std::vector<int>& from) {
+  SeedStore old = std::move(*this);
+  *this = SeedStore{};
+  model = std::move(old.model), material = old.material, rigid = old.rigid;
+  if (!old.load.empty() && !from.empty()) load.resize(1);
+  const int n = n_spheres();
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const int lane = static_cast<int>(k) % lane_width, b = static_cast<int>(k) / lane_width;
+    const int old_lane = from[k] % lane_width, old_b = from[k] / lane_width;
+    if (lane == 0) add_block();
+    seed.push_back(old.seed[from[k]]);
+    occupied[b][lane] = 1.0;
+    copy_lane(block(b), lane, old.block(old_b), old_lane, n);
+    copy_lane(forces(b), lane, old.forces(old_b), old_lane, n);
+    if (loads(b)) copy_lane(loads(b), lane, old.loads(old_b), old_lane, n);
+    if (rigid) copy_lane(&body[b], lane, &old.body[old_b], old_lane, 1);
+  }
 }
 
 std::size_t SeedStore::bytes() const {

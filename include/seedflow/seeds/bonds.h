@@ -55,6 +55,8 @@ class Bonds {
 
   int n_bonds() const { return static_cast<int>(constants.size()); }
   void add_block();
+  /// As SeedStore::rearrange(): slot k holds from now on the bonds of slot from[k].
+  void rearrange(const std::vector<int>& from);
 
   /// Adds the forces and torques of all bonds of block b of the spheres to `forces`. `step` [s] is the time
   /// since the last call (incremental form, damping). What comes `next` is called into the cache meanwhile.

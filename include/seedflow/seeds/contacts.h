@@ -49,6 +49,7 @@ class Contacts {
     int first, second;
     Vec3 spring;  ///< tangential displacement [m]; zero when apart
     bool touching = false;
+    double normal_force = 0;  ///< repulsion at the last substep [N]
   };
 
   void set_law(int material_a, int material_b, const ContactLaw& law);
@@ -56,7 +57,8 @@ class Contacts {
 
   /// Makes the lists anew from present positions. `first` [seed] numbers the sub-spheres.
   void search(const std::vector<SphereAddress>& spheres, const std::vector<int>& first,
-              const std::vector<Wall>& walls, const ContactParameters& parameters);
+              const std::vector<Wall>& walls, const std::vector<char>& wall_active,
+              const ContactParameters& parameters);
   /// Adds `distance` [m] to what any sub-sphere may have moved; true when the lists are to be made anew.
   bool moved(double distance) { return 2 * (travelled += distance) >= reach; }
   bool is_listed() const { return reach > 0; }
@@ -68,6 +70,10 @@ class Contacts {
                   std::vector<Vec3>& wall_force);
 
   int n_touching() const;
+  const std::vector<Pair>& sphere_pairs() const { return pairs; }
+  const std::vector<Pair>& walls_pairs() const { return wall_pairs; }
+  /// Sub-sphere i is called new_number[i] from now on; pairs of those with -1 are dropped.
+  void renumber(const std::vector<int>& new_number);
   /// Largest overlap of a sub-sphere with a wall or with another seed among the listed pairs.
   double largest_overlap(const std::vector<SphereAddress>& spheres, const std::vector<Wall>& walls,
                          Pair& where, bool& is_wall) const;

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "seedflow/base/quaternion.h"
 #include "seedflow/seeds/bonds.h"
+#include "seedflow/seeds/contact_network.h"
 #include "seedflow/seeds/contacts.h"
 #include "seedflow/seeds/material.h"
 #include "seedflow/seeds/motion.h"
@@ -72,7 +75,7 @@ struct DemEnergies {
 /// its limit. RunError from advance(): NaN, or a seed's centre outside the domain: which seed, where, when.
 class Dem {
  public:
-  explicit Dem(const DemParameters& parameters = {});
+  explicit Dem(const DemParameters& parameters = {}, MPI_Comm communicator = MPI_COMM_SELF);
 
   // Setting up.
   int add_material(const Material& material);
@@ -83,10 +86,15 @@ class Dem {
   /// Six walls named x-, x+, ..., z+ around the box, and the box as domain.
   void add_box(const Vec3& low, const Vec3& high, int material);
   void set_wall_velocity(int wall, const Vec3& velocity);
+  /// A wall that is not active touches nothing (a gate that has been taken away).
+  void set_wall_active(int wall, bool active);
   /// Seeds' centres must stay inside.
   void set_domain(const Vec3& low, const Vec3& high);
+  /// Returns the seed's index; also between two calls of advance(). The new seed shall touch nothing.
   int add_seed(int seed_template, const Vec3& centre, const Quaternion& orientation = {},
                const Vec3& velocity = {}, const Vec3& spin = {});
+  /// Takes seeds out. Those behind move up: indices shift, labels stay. Outside loads are forgotten.
+  void remove_seeds(const std::vector<int>& seeds);
   /// Throws InputError if a seed overlaps a wall or another seed, leaves the domain, or the time step is too
   /// large.
   void check();
@@ -112,6 +120,11 @@ class Dem {
   /// Sub-spheres first_sphere(i) ... first_sphere(i + 1) - 1 belong to seed i.
   int first_sphere(int seed) const { return first[seed]; }
   int seed_of_sphere(int sphere) const;
+  /// Persistent identity: 0, 1, ... in the order of adding, never given again.
+  long seed_label(int seed) const { return labels[seed]; }
+  /// A mark of the user's (colour), 0 at first.
+  int seed_group(int seed) const { return groups[seed]; }
+  void set_group(int seed, int group) { groups[seed] = group; }
   const SeedTemplate& seed_template(int seed) const;
   bool is_rigid(int seed) const;
   void positions(std::vector<Vec3>& out) const;
@@ -125,8 +138,14 @@ class Dem {
   double max_speed() const;
   int n_broken_bonds() const;
   int n_broken_bonds(int seed) const;
-  const std::vector<Wall>& walls() const { return wall; }
+  const std::vector<Wall>& walls() const { return all_walls; }
+  Wall& wall(int w) { return all_walls.at(w); }
+  const std::vector<Material>& materials() const { return material; }
   int n_contacts() const { return contacts.n_touching(); }
+  /// All touching pairs after the last advance().
+  ContactNetwork contact_network() const;
+  /// Number of other seeds and walls that each seed touches.
+  std::vector<int> coordination_numbers() const;
   std::size_t bytes() const;  ///< of all state and lists
 
   /// The complete state in binary; load() into a Dem set up in the same way, the same seeds added in the same
@@ -142,6 +161,7 @@ class Dem {
   const SphereLanes& lanes_of(int seed, int sphere, int& lane) const;
   template <class Member>
   void gather(std::vector<Vec3>& out, Member member) const;
+  void number_spheres();
   void refresh_addresses();
   void sum_contacts(double step);
   void sum_bonds(double step);
@@ -154,13 +174,18 @@ class Dem {
   void relax_factors(double step);
 
   DemParameters parameters;
+  MPI_Comm communicator;
   std::vector<Material> material;
   std::vector<SeedStore> store;
   std::vector<Bonds> bonds;   ///< [template]
   std::vector<Slot> slots;    ///< [seed]
   std::vector<int> first{0};  ///< [seed] first sub-sphere
   std::vector<double> sphere_radius, sphere_mass;
-  std::vector<Wall> wall;
+  std::vector<long> labels;  ///< [seed], ascending
+  std::vector<int> groups;   ///< [seed]
+  long next_label = 0;
+  std::vector<Wall> all_walls;
+  std::vector<char> wall_active;
   std::vector<Vec3> wall_impulse;
   std::vector<Vec3> wall_force;        ///< on the seeds by each wall at the present positions [N]
   std::vector<SphereAddress> address;  ///< [sub-sphere]; empty after a change of the stores

@@ -93,7 +93,12 @@ struct SeedStore {
   /// Puts a seed into the next free lane and returns its slot.
   int add(int seed_number, const Vec3& centre, const Quaternion& orientation, const Vec3& velocity,
           const Vec3& spin);
+  /// Slot k holds from now on what slot from[k] held; slots not named are gone.
+  void rearrange(const std::vector<int>& from);
   std::size_t bytes() const;
+
+ private:
+  void add_block();
 };
 
 }  // namespace seedflow
