@@ -25,7 +25,7 @@ auto& find(Effects& effects, const std::string& name) {
 void describe(std::ostream& out, const EffectRecord& r) {
   out << r.name << "\n  " << r.summary << "\n\n  Equation:   " << r.equation << "\n  Acts as:    " << r.slot
       << "\n  Valid for:  " << r.validity << "\n  Signature:  " << r.signature
-      << "\n  Strength:   0 to 1, in a fresh run " << r.standard_strength << '\n';
+      << "\n  Strength:   0 to 2, 1 as published, in a fresh run " << r.standard_strength << '\n';
   for (const auto& n : r.numbers)
     out << "  Parameter:  " << n.name << " = " << n.published << (n.unit == "1" ? "" : " " + n.unit) << " ("
         << n.range.low << " to " << n.range.high << "): " << n.doc << '\n';
@@ -46,10 +46,13 @@ std::vector<EffectDefinition> effect_catalogue() {
       hindered_settling(),
       tube_wall_drag(),
       plane_wall_drag(),  // the five above make the drag coefficient, in this order; those below add to it
+      turbulent_dispersion(),
+      faxen_force(),
       pressure_gradient(),
       added_mass(),
       history_force(),
       saffman_lift(),
+      wall_lift(),
       magnus_lift(),
       rotational_drag(),
   };

@@ -9,6 +9,9 @@
 namespace seedflow {
 namespace {
 
+/// Above 1 for a measured amplitude that exceeds the published one.
+constexpr double largest_strength = 2;
+
 /// Index of the member of that name, or InputError naming the nearest one.
 template <class List>
 std::size_t index_of(const List& list, const std::string& name, const std::string& effect) {
@@ -35,9 +38,10 @@ Effect::Effect(EffectDefinition d) : definition(std::move(d)) {
 }
 
 void Effect::set_strength(double strength) {
-  if (!(strength >= 0 && strength <= 1)) {
+  if (!(strength >= 0 && strength <= largest_strength)) {
     std::ostringstream text;
-    text << "The strength of the effect '" << record().name << "' is " << strength << "; allowed are 0 to 1.";
+    text << "The strength of the effect '" << record().name << "' is " << strength << "; allowed are 0 to "
+         << largest_strength << ".";
     throw InputError(text.str());
   }
   values.strength = strength;
@@ -78,7 +82,7 @@ const std::string& Effect::choice(const std::string& name) const {
 void Effect::declare(Parameters& parameters) {
   const auto& r = record();
   const auto section = parameters.section(r.name, r.summary + " " + r.equation);
-  parameters.number("Strength", values.strength, "1", Range::between(0, 1),
+  parameters.number("Strength", values.strength, "1", Range::between(0, largest_strength),
                     "0 adds exactly nothing, 1 the published effect. Valid for: " + r.validity);
   for (std::size_t i = 0; i < r.numbers.size(); ++i)
     parameters.number(r.numbers[i].name, values.numbers[i], r.numbers[i].unit, r.numbers[i].range,

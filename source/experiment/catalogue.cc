@@ -3,6 +3,7 @@
 #include "seedflow/experiment/settling.h"
 #include "seedflow/experiment/settling_study.h"
 #include "seedflow/experiment/settling_tank.h"
+#include "seedflow/experiment/single_seed.h"
 
 namespace seedflow {
 
@@ -11,7 +12,9 @@ std::vector<Experiment> experiment_catalogue() {
           {"settling study", "five seed models x readings x kinds of drag, beside the paper's Table 5",
            run_settling_study, describe_settling_study},
           {"settling tank", "a sphere in a closed tank, beside measurements", run_settling_tank,
-           describe_settling_tank}};
+           describe_settling_tank},
+          {"single seed", "one seed in a prescribed flow, in milliseconds", run_single_seed_experiment,
+           describe_single_seed, single_seed_observer}};
 }
 
 void declare_experiment_name(Parameters& parameters, std::string& name) {

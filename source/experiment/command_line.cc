@@ -18,11 +18,6 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-struct Command {
-  std::string name, usage, description;
-  std::function<int(const CommandLine&, const Arguments&, std::ostream&)> execute;
-};
-
 template <typename Table>
 std::vector<std::string> names_of(const Table& table) {
   std::vector<std::string> names;
@@ -33,6 +28,8 @@ std::vector<std::string> names_of(const Table& table) {
 bool is_parameter_file(const std::string& argument) {
   return argument.size() > 4 && argument.compare(argument.size() - 4, 4, ".prm") == 0;
 }
+
+}  // namespace
 
 RunOptions read_run_options(const Arguments& arguments) {
   const std::vector<std::string> known = {"--set", "--output", "--resume", "--dry-run", "--mpi"};
@@ -77,6 +74,8 @@ RunOptions read_run_options(const Arguments& arguments) {
   if (options.output.empty()) options.output = "output/" + std::filesystem::path(options.prm).stem().string();
   return options;
 }
+
+namespace {
 
 int run(const CommandLine& program, const Arguments& arguments, std::ostream&) {
   const RunOptions options = read_run_options(arguments);
@@ -155,18 +154,21 @@ int bench(const CommandLine& program, const Arguments& arguments, std::ostream& 
 
 int help(const CommandLine& program, const Arguments&, std::ostream& out);
 
-std::vector<Command> commands() {
-  return {{"run", "run FILE.prm [--set \"Section/Entry=value\"]... [--output DIR] [--resume] [--dry-run]",
-           "compute; `run` may be left out", run},
-          {"parameters", "parameters [SECTION]", "the reference of the parameter files", parameters},
-          {"effects", "effects [NAME]", "the catalogue of physical effects", effects},
-          {"bench", "bench [NAME]", "benchmarks, written to bench.json", bench},
-          {"help", "help", "this text", help}};
+std::vector<Command> all_commands(const CommandLine& program) {
+  std::vector<Command> all = {
+      {"run", "run FILE.prm [--set \"Section/Entry=value\"]... [--output DIR] [--resume] [--dry-run]",
+       "compute; `run` may be left out", run},
+      {"parameters", "parameters [SECTION]", "the reference of the parameter files", parameters},
+      {"effects", "effects [NAME]", "the catalogue of physical effects", effects},
+      {"bench", "bench [NAME]", "benchmarks, written to bench.json", bench},
+      {"help", "help", "this text", help}};
+  all.insert(all.end() - 1, program.commands.begin(), program.commands.end());
+  return all;
 }
 
 int help(const CommandLine& program, const Arguments&, std::ostream& out) {
   if (program.rank != 0) return exit_done;
-  for (const Command& command : commands())
+  for (const Command& command : all_commands(program))
     out << "  " << command.usage << "\n      " << command.description << "\n";
   if (!program.experiments.empty()) out << "\nExperiments:\n";
   for (const Experiment& experiment : program.experiments)
@@ -183,9 +185,9 @@ int CommandLine::execute(const std::vector<std::string>& arguments, std::ostream
   if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h") return help(*this, {}, out);
   Arguments rest(arguments.begin() + 1, arguments.end());
   if (is_parameter_file(arguments[0])) return run(*this, arguments, out);
-  for (const Command& command : commands())
+  for (const Command& command : all_commands(*this))
     if (command.name == arguments[0]) return command.execute(*this, rest, out);
-  std::vector<std::string> names = names_of(commands());
+  std::vector<std::string> names = names_of(all_commands(*this));
   for (const char* name : {"test", "build"}) {
     if (arguments[0] == name)
       throw InputError("\"" + arguments[0] + "\" is a command of the launcher: ./seedflow " + arguments[0] +

@@ -20,6 +20,7 @@ FlowAtBody busy_state() {
   f.diameter = 1e-3, f.volume = M_PI / 6 * 1e-9, f.mass = 2500 * f.volume, f.sphericity = 0.9;
   f.velocity = {0.01, -0.02, -0.05}, f.angular_velocity = {3, 10, -5}, f.acceleration = {0, 0.5, 1};
   f.flow_velocity = {0.03, 0.01, 0.02}, f.flow_vorticity = {1, -6, 2}, f.flow_acceleration = {0.3, 0.1, 0};
+  f.flow_laplacian = {50, 0, -200};
   f.pressure_gradient = {-300, 10, 0};
   f.void_fraction = 0.8, f.density = 1000, f.viscosity = 1e-2, f.gravity = {0, 0, -9.81};
   f.wall_distance = 8e-4, f.wall_normal = {0, 0, 1}, f.tube_diameter = 5e-3;
@@ -132,7 +133,7 @@ TEST(Catalogue, BadInputNamesTheNearest) {
   EXPECT_NE(message([&] { set["Added mass"].set_number("Coefficient", 7); }).find("7"), std::string::npos);
   EXPECT_NE(message([&] { set["History force"].set_choice("Kernel", "Baset"); }).find("Basset"),
             std::string::npos);
-  EXPECT_NE(message([&] { set["Drag"].set_strength(1.5); }).find("0 to 1"), std::string::npos);
+  EXPECT_NE(message([&] { set["Drag"].set_strength(2.5); }).find("0 to 2"), std::string::npos);
   std::ostringstream out;
   EXPECT_NE(message([&] { describe_effects(out, "Magnus lft"); }).find("Magnus lift"), std::string::npos);
 }

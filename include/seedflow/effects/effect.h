@@ -43,12 +43,13 @@ struct EffectRecord {
   std::function<bool(const FlowAtBody&)> in_range;  ///< the same as a test of one state
   std::string signature;                            ///< what a measurement shows when the effect is missing
   bool has_memory = false;                          ///< keeps numbers of every body from step to step
-  double standard_strength = 0;                     ///< of a fresh run
+  bool random = false;           ///< one realisation says little: compare the mean or spread of many
+  double standard_strength = 0;  ///< of a fresh run
 };
 
 /// The user's settings of one effect.
 struct EffectSettings {
-  double strength = 0;               ///< in [0, 1]; 0 adds exactly nothing
+  double strength = 0;               ///< in [0, 2]; 0 adds exactly nothing, 1 as published
   std::vector<double> numbers;       ///< in the order of the record
   std::vector<std::string> choices;  ///< in the order of the record
 };
@@ -83,7 +84,7 @@ class Effect {
   const EffectSettings& settings() const { return values; }
   const EffectActivity& activity() const { return done; }
 
-  /// InputError if the strength is outside [0, 1], the name unknown, or the value outside its bounds.
+  /// InputError if the strength is outside [0, 2], the name unknown, or the value outside its bounds.
   void set_strength(double strength);
   void set_number(const std::string& name, double value);
   void set_choice(const std::string& name, const std::string& value);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "seedflow/experiment/observation.h"
+
 namespace seedflow {
 
 class Parameters;
@@ -25,6 +27,8 @@ struct Experiment {
   int (*run)(const RunOptions&);
   /// Writes the reference of its parameters, see Parameters::describe.
   void (*describe)(std::ostream&, const std::string& section);
+  /// How it serves as a model of measurements; null if it does not.
+  Observer (*observer)() = nullptr;
 };
 
 /// All experiments.
