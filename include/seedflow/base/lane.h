@@ -41,6 +41,11 @@ SEEDFLOW_INLINE Lanes lane_sqrt(Lanes a) {
   for (int i = 0; i < lane_width; ++i) r[i] = __builtin_sqrt(a[i]);
   return r;
 }
+SEEDFLOW_INLINE Lanes lane_cbrt(Lanes a) {
+  Lanes r;
+  for (int i = 0; i < lane_width; ++i) r[i] = __builtin_cbrt(a[i]);
+  return r;
+}
 
 // The same for one number, so that a formula can be written once for double and Lanes.
 SEEDFLOW_INLINE double select(bool mask, double a, double b) {
@@ -54,6 +59,9 @@ SEEDFLOW_INLINE double lane_min(double a, double b) {
 }
 SEEDFLOW_INLINE double lane_sqrt(double a) {
   return __builtin_sqrt(a);
+}
+SEEDFLOW_INLINE double lane_cbrt(double a) {
+  return __builtin_cbrt(a);
 }
 
 SEEDFLOW_INLINE double lane_sum(Lanes a) {

@@ -2,33 +2,36 @@
 
 #include <type_traits>
 
-#include "seedflow/base/vector.h"
-#include "seedflow/seeds/lane_vector.h"
+#include "seedflow/seeds/cohesion.h"
+#include "seedflow/seeds/contact_state.h"
 #include "seedflow/seeds/material.h"
+#include "seedflow/seeds/rolling_friction.h"
 
 namespace seedflow {
-
-enum class Rolling { none, constant_torque, epsd };
-enum class Cohesion { none, jkr, capillary };
 
 /// Contact between two materials: Hertz-Mindlin without slip, the source paper's Table 1 in its standard
 /// form,
 ///   1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j,  1/G* = (2 - nu_i)/G_i + (2 - nu_j)/G_j,
 ///   a = sqrt(R* delta),  F_n = 4/3 E* a delta,  k_n = 4/3 E* a,  k_t = 8 G* a,
 ///   c_n = beta sqrt(5 m* k_n),  c_t = beta sqrt(10/3 m* k_t),  beta = -ln e/sqrt(ln^2 e + pi^2)
-/// (Tsuji et al. 1992; Di Renzo & Di Maio 2004; EDEM's documentation for c_t).
+/// (Tsuji et al. 1992; Di Renzo & Di Maio 2004; EDEM's documentation for c_t). Viscoelastic restitution has
+/// c_n = 3/2 A k_n instead (restitution.h). Cohesion changes a and F_n (cohesion.h).
 struct ContactLaw {
   double young = 0;             ///< E* [Pa]
   double shear = 0;             ///< G* [Pa]
   double beta = 0;              ///< damping [1], >= 0
   double static_friction = 0;   ///< mu [1]
   double rolling_friction = 0;  ///< mu_r [1]
-  Rolling rolling = Rolling::constant_torque;
+  Rolling rolling = Rolling::none;
+  RollingNumbers rolling_numbers;
   Cohesion cohesion = Cohesion::none;
+  CohesionNumbers cohesion_numbers;
   double normal_damping = 0;      ///< c_n / sqrt(m* a) [(N/m2)^(1/2)]
+  double viscous_damping = 0;     ///< c_n / a of viscoelastic restitution, 2 A E* [Pa s]
   double tangential_damping = 0;  ///< c_t / sqrt(m* a) [(N/m2)^(1/2)]
 
   ContactLaw() = default;
+  /// Throws InputError naming both materials if the properties are not consistent.
   ContactLaw(const Material& a, const Material& b, const ContactProperties& properties);
 
   /// Gap up to which a contact that once touched goes on acting [m]; 0 without cohesion. Lists must hold
@@ -36,93 +39,67 @@ struct ContactLaw {
   double reach(double reduced_radius) const;
 };
 
-/// What the law is told of one contact (Real = double) or of lane_width contacts (Lanes). The normal points
-/// from the second body to the first.
-template <class Real>
-struct ContactKinematics {
-  VectorOf<Real> normal;
-  Real overlap{};             ///< delta [m]; negative: a gap
-  Real reduced_radius{};      ///< R* [m] > 0
-  Real reduced_mass{};        ///< m* [kg] > 0
-  VectorOf<Real> velocity;    ///< of the first body's surface relative to the second's at the contact [m/s]
-  Real share = Real{} + 1.0;  ///< factor on all the contact does, see contact_share()
-  // For rolling friction only.
-  VectorOf<Real> spin;     ///< of the first body relative to the second [rad/s]
-  Real rolling_radius{};   ///< R_r [m]
-  Real inertia{};          ///< reduced, about the centres: limits what one step may stop [kg m2]
-  Real contact_inertia{};  ///< reduced, of each body about the contact, I + m r^2 (EPSD) [kg m2]
-};
-
-/// What a contact remembers from step to step; all zero while apart.
-template <class Real>
-struct ContactMemory {
-  VectorOf<Real> spring;   ///< tangential displacement since the contact began [m]
-  VectorOf<Real> rolling;  ///< rolling angle since the contact began (EPSD) [rad]
-  Real attached{};         ///< 1 while a cohesive contact holds, else 0
-};
-
-/// What a contact does to the first body; the second receives the opposite force (at the same point) and
-/// torque.
-template <class Real>
-struct ContactAction {
-  VectorOf<Real> force;   ///< [N]
-  VectorOf<Real> torque;  ///< of rolling friction [N m]
-  Real repulsion{};       ///< repulsive normal part, >= 0 [N]; Coulomb's limit is mu times this
-};
-
-/// Torque of constant size mu_r N R_r against the relative rotation, at most what stops it within the step.
-template <class Real>
-SEEDFLOW_INLINE VectorOf<Real> constant_rolling_torque(const ContactLaw& law,
-                                                       const ContactKinematics<Real>& c, Real repulsion,
-                                                       double inverse_step) {
-  const Real speed = norm(c.spin);
-  const Real size =
-      lane_min(law.rolling_friction * repulsion * c.rolling_radius, inverse_step * c.inertia * speed);
-  return (-size / lane_max(speed, Real{} + 1e-100)) * c.spin;
+/// Elastic and cohesive normal force by the law's model.
+template <Cohesion cohesion, class Real>
+SEEDFLOW_INLINE NormalForce<Real> normal_force_of(const ContactLaw& law, const ContactKinematics<Real>& c,
+                                                  Real attached) {
+  if constexpr (cohesion == Cohesion::jkr)
+    return jkr_force(law.cohesion_numbers, c, attached);
+  else if constexpr (cohesion == Cohesion::capillary)
+    return capillary_force(law.cohesion_numbers, law.young, c, attached);
+  else
+    return hertz_force(law.young, c);
 }
 
 /// The law, without branches, once for one contact and for lanes. `step` [s]: time since the memory was last
 /// brought up to date, 0 to only evaluate. A contact with a gap that is not attached gives exactly zero and
-/// has its memory cleared, so unused lanes may hold any finite numbers with overlap <= 0.
+/// has its memory cleared, so unused lanes may hold any finite numbers with overlap <= 0 and attached = 0.
 ///
 /// The tangential spring is turned into the present tangent plane and, when the contact slides, shortened so
-/// that the spring alone carries mu times the repulsion. Damping acts only while sticking. The normal force
-/// may be attractive at the end of a rebound (that makes restitution out equal restitution in); Coulomb's
-/// limit then is zero.
+/// that the spring alone carries mu times the repulsion. Damping acts only while sticking. Without cohesion
+/// the normal force may be attractive at the end of a rebound (that makes restitution out equal restitution
+/// in); Coulomb's limit then is zero. The repulsion is the elastic part and damping, without cohesion.
 template <Rolling rolling, Cohesion cohesion, class Real>
 SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const ContactKinematics<Real>& c,
                                                    double step, ContactMemory<Real>& memory) {
   using Vector = VectorOf<Real>;
-  constexpr double tiny = 1e-100;
-  const Real zero{}, one = zero + 1.0;
-  const auto touching = c.overlap > zero;
-  const Real overlap = lane_max(c.overlap, zero);
+  const Real zero{};
+  const NormalForce<Real> f = normal_force_of<cohesion>(law, c, memory.attached);
+  if constexpr (cohesion != Cohesion::none) memory.attached = f.attached;
 
-  const Real contact_radius = lane_sqrt(c.reduced_radius * overlap);
-  const Real elastic = 4.0 / 3 * law.young * contact_radius * overlap;
-  const Real damping = c.share * lane_sqrt(c.reduced_mass * contact_radius);
+  const Real damping = c.share * lane_sqrt(c.reduced_mass * f.contact_radius);
   const Real normal_speed = dot(c.velocity, c.normal);
   const Vector slip = c.velocity - normal_speed * c.normal;
-  const Real normal_force = c.share * elastic - law.normal_damping * damping * normal_speed;
+  const Real pushing =
+      c.share * f.repulsion -
+      (law.normal_damping * damping + law.viscous_damping * c.share * f.contact_radius) * normal_speed;
   ContactAction<Real> result;
-  result.repulsion = lane_max(normal_force, zero);
+  result.repulsion = lane_max(pushing, zero);
 
-  const Real length = norm(memory.spring);
-  Vector spring = memory.spring - dot(memory.spring, c.normal) * c.normal;
-  spring = (length / lane_max(norm(spring), zero + tiny)) * spring + step * slip;
-
+  Vector spring = turned_into_plane<Real>(memory.spring, c.normal) + step * slip;
   const Real limit = law.static_friction * result.repulsion;
-  const Real stiffness = 8 * law.shear * c.share * contact_radius;
+  const Real stiffness = 8 * law.shear * c.share * f.contact_radius;
   const Real trial = stiffness * norm(spring);
-  const auto slides = trial > limit;
-  spring = select(slides, limit / lane_max(trial, zero + tiny), one) * spring;
-  Vector tangential = -stiffness * spring - select(slides, zero, law.tangential_damping * damping) * slip;
-  const Real size = norm(tangential);
-  tangential = select(size > limit, limit / lane_max(size, zero + tiny), one) * tangential;
-  memory.spring = select(touching, one, zero) * spring;
-  result.force = normal_force * c.normal + tangential;
+  spring = cut(trial, limit) * spring;
+  Vector tangential =
+      -stiffness * spring - select(trial > limit, zero, law.tangential_damping * damping) * slip;
+  tangential = cut<Real>(norm(tangential), limit) * tangential;
+  memory.spring = select(f.contact_radius > zero, zero + 1.0, zero) * spring;
+  if constexpr (cohesion == Cohesion::none)
+    result.force = pushing * c.normal + tangential;
+  else
+    result.force = (pushing - c.share * f.attraction) * c.normal + tangential;
+
   if constexpr (rolling == Rolling::constant_torque)
-    result.torque = constant_rolling_torque(law, c, result.repulsion, step > 0 ? 1 / step : 1e200);
+    result.torque =
+        constant_rolling_torque(law.rolling_numbers, c, result.repulsion, step > 0 ? 1 / step : 1e200);
+  if constexpr (rolling == Rolling::epsd) {
+    const Real touches = select(f.contact_radius > zero, zero + 1.0, zero);
+    const Real k = 4.0 / 3 * law.young * c.share * f.contact_radius;
+    result.torque =
+        touches * epsd_rolling_torque(law.rolling_numbers, c, result.repulsion, k, step, memory.rolling);
+    memory.rolling = touches * memory.rolling;
+  }
   return result;
 }
 
