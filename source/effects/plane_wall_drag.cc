@@ -45,24 +45,46 @@ EffectDefinition plane_wall_drag() {
       "sinh(2n+1)a + (2n+1) "
       "sinh 2a)/(4 sinh^2(n+1/2)a - (2n+1)^2 sinh^2 a) - 1). g_t = max(1/(1 - 9/16 x + x^3/8 - 45/256 x^4 - "
       "x^5/16), "
-      "0.9588 - 8/15 ln s), x = 1/(1 + s)";
+      "0.9588 - 8/15 ln s), x = 1/(1 + s). Form Lubrication: the film alone, whatever Re outside it, F = 3 "
+      "pi mu d "
+      "(g_n(s) - g_n(s_r)) w_n for s < s_r = Reach";
   r.numbers = {{"Smallest gap", 1e-3, "1", Range::between(1e-6, 0.1),
-                "s is not taken smaller than this: the roughness of the surfaces, in radii."}};
+                "s is not taken smaller than this: the roughness of the surfaces, in radii."},
+               {"Reach", 0.05, "1", Range::between(1e-3, 1),
+                "Of the form Lubrication: gap in radii below which the film acts."}};
+  r.choices = {
+      {"Form",
+       "Whole",
+       {"Whole", "Lubrication"},
+       "The wall's whole influence in Stokes flow, or the thin film alone, where the flow outside it "
+       "is resolved or is not Stokes flow."}};
   r.references = {
       "Brenner (1961), Chem. Eng. Sci. 16, 242-251, doi:10.1016/0009-2509(61)80035-3",
       "Cox & Brenner (1967), Chem. Eng. Sci. 22, 1753-1777",
-      "Goldman, Cox & Brenner (1967), Chem. Eng. Sci. 22, 637-651, doi:10.1016/0009-2509(67)80047-2"};
+      "Goldman, Cox & Brenner (1967), Chem. Eng. Sci. 22, 637-651, doi:10.1016/0009-2509(67)80047-2",
+      "Costa, Boersma, Westerweel & Breugem (2015), Phys. Rev. E 92, 053012, doi:10.1103/PhysRevE.92.053012 "
+      "(the film alone; gap of 0.05 radii at a wall)"};
   r.validity =
       "one plane wall, Re << 1 (used as a first estimate up to Re = 1), wall and fluid at rest far away";
   r.in_range = [](const FlowAtBody& flow) { return slip_reynolds(flow) < 1; };
   r.signature = "measured speed falls before the wall is reached, simulated speed does not";
   return {r, [](const EffectSettings& settings) {
-            const double smallest = settings.numbers[0];
-            return [smallest](const FlowAtBody& flow, EffectMemory&, BodyForce& force) {
+            const double smallest = settings.numbers[0], reach = settings.numbers[1];
+            const bool film = settings.choices[0] == "Lubrication";
+            return [=](const FlowAtBody& flow, EffectMemory&, BodyForce& force) {
               const double gap = std::max(2 * flow.wall_distance / flow.diameter - 1, smallest);
               // Beyond 1e4 radii both factors differ from 1 by less than 2e-4; without a normal there is no
               // wall.
               if (gap > 1e4 || norm_square(flow.wall_normal) == 0) return;
+              if (film) {
+                if (gap >= reach) return;
+                const double excess = normal_factor(gap) - normal_factor(reach);
+                const double stokes = 3 * M_PI * flow.viscosity * flow.diameter;
+                const Vec3 w = slip(flow), across = dot(w, flow.wall_normal) * flow.wall_normal;
+                force.drag_coefficient += stokes * excess;  // implicit; taken back along the wall
+                force.force -= stokes * excess * (w - across);
+                return;
+              }
               const double normal = normal_factor(gap), along = tangential_factor(gap),
                            k = force.drag_coefficient;
               const Vec3 w = slip(flow), w_along = w - dot(w, flow.wall_normal) * flow.wall_normal;

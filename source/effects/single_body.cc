@@ -81,6 +81,14 @@ FlowAtBody SingleBody::flow_at(const SingleBodyState& s, double time, double ste
       (flow.velocity(s.position, time + tau) - flow.velocity(s.position, time - tau)) / (2 * tau);
   for (int j = 0; j < 3; ++j) f.flow_acceleration += f.flow_velocity[j] * gradient[j];
   f.pressure_gradient = -flow.density * f.flow_acceleration;
+  // A wider step than for the gradient: round-off is divided by its square.
+  const double wide = 0.02 * properties.diameter;
+  for (int j = 0; j < 3; ++j) {
+    Vec3 ahead = s.position, behind = s.position;
+    ahead[j] += wide, behind[j] -= wide;
+    f.flow_laplacian +=
+        (flow.velocity(ahead, time) + flow.velocity(behind, time) - 2 * f.flow_velocity) / (wide * wide);
+  }
   return f;
 }
 

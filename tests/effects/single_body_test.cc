@@ -183,6 +183,25 @@ TEST(SingleBody, UndisturbedStressKeepsAFluidSphereOnItsStreamline) {
   EXPECT_GT(radius(0), 0.101);  // centrifuged without it
 }
 
+TEST(SingleBody, NeutralSphereLagsAParabolicProfile) {
+  // On the axis of u = U (1 - r^2/R^2) a sphere of the fluid's density moves at U (1 - 2/3 a^2/R^2) (Faxen).
+  PrescribedFlow flow;
+  flow.gravity = {}, flow.viscosity = 1;
+  flow.velocity = [](const Vec3& x, double) {
+    return Vec3{0, 0, 1e-2 * (1 - (x.x * x.x + x.y * x.y) / 25e-6)};
+  };
+  EffectSet set;
+  set["Drag"].set_choice("Law", "Stokes");
+  set["Faxen force"].set_strength(1);
+  SingleBody sphere({2e-3, 1000, 1}, flow, set);
+  // The second difference loses 1e-16/(0.02 d/R)^2 of U to round-off.
+  EXPECT_NEAR(sphere.run({0.1}, 1e-3).back().velocity.z, 1e-2 * (1 - 2.0 / 3 / 25), 1e-11);
+  // A plain shear has no curvature.
+  flow.velocity = [](const Vec3& x, double) { return Vec3{0, 0, 3 * x.x}; };
+  SingleBody sheared({2e-3, 1000, 1}, flow, set);
+  EXPECT_NEAR(norm(sheared.flow_at({}, 0, 1e-3).flow_laplacian), 0, 1e-6);
+}
+
 TEST(SingleBody, WallsAreSeen) {
   PrescribedFlow flow;
   flow.viscosity = 1;

@@ -56,6 +56,31 @@ TEST(WallDrag, PlaneAgreesWithThePublishedTables) {
   }
 }
 
+TEST(WallDrag, TheFilmAloneIsStokesWhateverTheReynoldsNumber) {
+  FlowAtBody f = oil(1e-2);
+  f.viscosity = 1e-3;  // Re 100
+  f.wall_normal = {0, 0, 1};
+  EffectSet set;
+  set["Plane wall drag"].set_strength(1);
+  set["Plane wall drag"].set_choice("Form", "Lubrication");
+  const auto extra = [&](double gap) {
+    f.wall_distance = 0.5 * f.diameter * (1 + gap);
+    BodyForce force;
+    force.drag_coefficient = 1;
+    set["Plane wall drag"].add(f, force);
+    return force.drag_coefficient - 1 + (force.force.z == 0 ? 0 : force.force.z / slip(f).z);
+  };
+  EXPECT_EQ(extra(0.06), 0);
+  EXPECT_NEAR(extra(0.05 * (1 - 1e-9)), 0, 1e-9);  // sets in without a jump
+  // At 0.001 radii the exact series gives 1002.3533 (see above), at the reach of 0.05 radii 21.585.
+  EXPECT_NEAR(extra(0.001), 3 * M_PI * 1e-3 * 0.01 * (1002.3533 - 21.585), 1e-4 * 0.1);
+  f.velocity = {1e-2, 0, 0};  // along the wall the film does nothing
+  f.wall_distance = 0.5 * f.diameter * 1.01;
+  BodyForce force;
+  set["Plane wall drag"].add(f, force);
+  EXPECT_NEAR(norm(force.drag_coefficient * slip(f) + force.force), 0, 1e-15);
+}
+
 TEST(WallDrag, TubeAgreesWithThePublishedValues) {
   FlowAtBody f = oil(1e-7);
   // Haberman & Sayre's exact table for the axis of a tube: d/D 0.1, 0.2, 0.3, 0.5

@@ -10,10 +10,13 @@ EffectDefinition nonspherical_drag();
 EffectDefinition hindered_settling();
 EffectDefinition tube_wall_drag();
 EffectDefinition plane_wall_drag();
+EffectDefinition turbulent_dispersion();
+EffectDefinition faxen_force();
 EffectDefinition pressure_gradient();
 EffectDefinition added_mass();
 EffectDefinition history_force();
 EffectDefinition saffman_lift();
+EffectDefinition wall_lift();
 EffectDefinition magnus_lift();
 EffectDefinition rotational_drag();
 

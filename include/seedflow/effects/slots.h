@@ -22,7 +22,9 @@ struct FlowAtBody {
   Vec3 flow_velocity;      ///< (undisturbed where the coupling corrects it) [m/s]
   Vec3 flow_vorticity;     ///< curl u [1/s]
   Vec3 flow_acceleration;  ///< Du/Dt [m/s2]
-  Vec3 pressure_gradient;  ///< of the dynamic pressure, hydrostatic part excluded [Pa/m]
+  /// laplace u [1/(m s)]; left zero where the velocity is already an average over the body, which holds it.
+  Vec3 flow_laplacian;
+  Vec3 pressure_gradient;        ///< of the dynamic pressure, hydrostatic part excluded [Pa/m]
   double void_fraction = 1;      ///< eps of the air at the body
   double density = 1.2;          ///< of the air [kg/m3]
   double viscosity = 1.8e-5;     ///< dynamic, of the air [Pa s]
