@@ -134,7 +134,7 @@ class AsciiReader {
 
 }  // namespace
 
-TriangleSurface read_stl(const std::string& file) {
+TriangleSurface read_triangles(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string data{std::istreambuf_iterator<char>(in), {}};
   if (!in || data.empty())
@@ -154,6 +154,12 @@ TriangleSurface read_stl(const std::string& file) {
         (data.size() >= header_bytes ? std::to_string(binary_count(data)) + " triangles announced"
                                      : "no complete header") +
         "). It may be cut off; export it again.");
+  if (surface.triangle.empty()) throw InputError(file + ": the surface has no triangles; export it again.");
+  return surface;
+}
+
+TriangleSurface read_stl(const std::string& file) {
+  TriangleSurface surface = read_triangles(file);
   require_closed(surface, file);
   return surface;
 }

@@ -24,6 +24,8 @@ std::string place(const Vec3& x) {
 
 using Edge = std::pair<int, int>;
 
+}  // namespace
+
 void require_area(const TriangleSurface& s, const std::string& name) {
   for (const auto& [a, b, c] : s.triangle) {
     const Vec3 ab = s.vertex[b] - s.vertex[a], ac = s.vertex[c] - s.vertex[a];
@@ -34,6 +36,8 @@ void require_area(const TriangleSurface& s, const std::string& name) {
           " has no area (its corners lie on a line); remove degenerate triangles in the mesh program.");
   }
 }
+
+namespace {
 
 void require_manifold(const TriangleSurface& s, const std::string& name) {
   std::map<Edge, int> along;  // how often an edge is passed in this direction

@@ -58,11 +58,13 @@ namespace {
 bool is_turned_into_itself(const Plane& s, const Vec3&, const Vec3& axis) {
   return norm(cross(s.normal, axis)) < 1e-12;
 }
-bool is_turned_into_itself(const Rectangle&, const Vec3&, const Vec3&) {
+template <class Other>
+bool is_turned_into_itself(const Other&, const Vec3&, const Vec3&) {
   return false;
 }
-bool is_turned_into_itself(const Box&, const Vec3&, const Vec3&) {
-  return false;
+bool is_turned_into_itself(const Plate& s, const Vec3& pivot, const Vec3& axis) {
+  return n_holes(s.holes) == 0 && std::holds_alternative<DiscOutline>(s.outline) &&
+         norm(cross(s.normal, axis)) < 1e-12 && norm(cross(pivot - s.centre, axis)) < 1e-12 * s.thickness;
 }
 bool is_turned_into_itself(const Cylinder& s, const Vec3& pivot, const Vec3& axis) {
   return norm(cross(s.axis, axis)) < 1e-12 && norm(cross(pivot - s.base, axis)) < 1e-12 * s.radius;

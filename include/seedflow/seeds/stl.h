@@ -36,6 +36,13 @@ SurfaceMoments moments(const TriangleSurface& surface);
 /// orientation, more than one piece. Surfaces that cut through themselves are not recognised.
 TriangleSurface read_stl(const std::string& file);
 
+/// Reads an STL file that may be open, in pieces and of any orientation, as a wall is. Errors: InputError as
+/// of read_stl() for a file that is unreadable, malformed or empty.
+TriangleSurface read_triangles(const std::string& file);
+
+/// InputError if a triangle has no area.
+void require_area(const TriangleSurface& surface, const std::string& name);
+
 /// Checks and orients what read_stl() has read (also for surfaces made otherwise); `name` is used in
 /// messages.
 void require_closed(TriangleSurface& surface, const std::string& name);
