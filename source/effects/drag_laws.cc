@@ -58,7 +58,7 @@ double gidaspow(double re, double eps, double phi) {
   if (eps >= 0.8) {
     const double lone =
         re_superficial < 1000 ? schiller_naumann_low(re_superficial) : 0.44 * re_superficial / 24;
-    return lone * std::pow(eps, -1.65);
+    return lone * std::pow(eps, -2.65);
   }
   return (150 * (1 - eps) / (eps * phi * phi) + 1.75 * re / phi) / 18;
 }

@@ -78,9 +78,10 @@ TEST(DragLaws, CrowdLawsAgreeWithErgunAndRichardsonZakiAsPublished) {
   // A suspension settles so that k w = eps F_net (model A, its pressure gradient carries the rest).
   // Richardson-Zaki: U = eps w = U_t eps^n with n = 4.65 in Stokes flow and 2.39 in Newton's range; Di
   // Felice 3.7 + 1 and 2.35.
-  const auto exponent = [](double viscosity, double eps) {
+  // Gidaspow at eps >= 0.8 is Wen & Yu's law, made from Richardson-Zaki: 4.65 and 2.325.
+  const auto exponent = [](double viscosity, double eps, const char* name = "Di Felice") {
     const double rho = 1000, d = 1e-3, net = 1e-6;
-    const DragLaw& law = drag_law("Di Felice");
+    const DragLaw& law = drag_law(name);
     const double lone = terminal_speed(law, net, d, rho, viscosity);
     double low = 0, high = lone;
     for (int i = 0; i < 100; ++i) {
@@ -92,6 +93,8 @@ TEST(DragLaws, CrowdLawsAgreeWithErgunAndRichardsonZakiAsPublished) {
   };
   EXPECT_NEAR(exponent(10.0, 0.7), 4.65, 0.1);
   EXPECT_NEAR(exponent(1e-7, 0.7), 2.39, 0.1);
+  EXPECT_NEAR(exponent(1e3, 0.85, "Gidaspow"), 4.65, 1e-3);
+  EXPECT_NEAR(exponent(1e-7, 0.85, "Gidaspow"), 2.325, 1e-3);
 }
 
 TEST(DragLaws, SeedInTheSettlingTank) {
