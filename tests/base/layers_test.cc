@@ -21,7 +21,8 @@ const std::map<std::string, Names> allowed = {
     {"coupling", {"base", "mesh", "effects", "fluid", "seeds"}},
     {"output", {"base", "mesh", "effects", "fluid", "seeds", "coupling"}},
     {"experiment", {"base", "mesh", "effects", "fluid", "seeds", "coupling", "output"}},
-    {"diagnose", {"base", "mesh", "effects", "fluid", "seeds", "coupling", "output", "experiment"}},
+    {"truth", {"base"}},
+    {"diagnose", {"base", "mesh", "effects", "fluid", "seeds", "coupling", "output", "experiment", "truth"}},
 };
 /// These compute with plain numbers and vectors alone.
 const Names without_dealii = {"effects", "seeds"};
