@@ -57,6 +57,61 @@ double to_number(const std::string& text, const std::string& where, const std::s
 
 }  // namespace
 
+namespace {
+
+/// What a line `# correlated,...` says.
+struct CorrelatedPart {
+  std::string quantity, unit, coordinate_unit;
+  double uncertainty = 0, length = 0;
+  int line = 0;
+};
+
+std::vector<CorrelatedPart> read_correlated_parts(const std::filesystem::path& file) {
+  std::vector<CorrelatedPart> parts;
+  std::istringstream text(read_file(file));
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    line = trim(line);
+    if (line.empty() || line[0] != '#' || trim(line.substr(1)).compare(0, 11, "correlated,") != 0) continue;
+    const std::string where = file.string() + ":" + std::to_string(number);
+    std::vector<std::string> f;
+    std::istringstream fields(trim(line.substr(1)));
+    for (std::string field; std::getline(fields, field, ',');) f.push_back(trim(field));
+    if (f.size() != 6)
+      throw InputError(where +
+                       ": write # correlated,QUANTITY,UNIT,UNCERTAINTY,COORDINATE_UNIT,LENGTH, for example # "
+                       "correlated,velocity,m/s,0.001,s,0.5.");
+    CorrelatedPart part{f[1], f[2], f[4], to_number(f[3], where, "the uncertainty"), 0, number};
+    part.length = f[5] == "inf" ? std::numeric_limits<double>::infinity()
+                                : to_number(f[5], where, "the correlation length");
+    if (!(part.uncertainty > 0) || !(part.length > 0))
+      throw InputError(where + ": uncertainty and correlation length must be positive.");
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+/// Errors: InputError if a part belongs to no value, or is written in other units than the values.
+void add_correlated_parts(const std::vector<CorrelatedPart>& parts, const std::filesystem::path& file,
+                          std::vector<Measurement>& measurements) {
+  for (const CorrelatedPart& part : parts) {
+    const std::string where = file.string() + ":" + std::to_string(part.line);
+    bool used = false;
+    for (Measurement& m : measurements) {
+      if (m.quantity != part.quantity) continue;
+      if (m.unit != part.unit || m.coordinate_unit != part.coordinate_unit)
+        throw InputError(where + ": the correlated part must be given in the units of the values of " +
+                         part.quantity + ", " + m.unit + " and " + m.coordinate_unit + ".");
+      m.correlated_uncertainty = part.uncertainty;
+      m.correlation_length = part.length;
+      used = true;
+    }
+    if (!used) throw InputError(where + ": no value of \"" + part.quantity + "\" stands in the file.");
+  }
+}
+
+}  // namespace
+
 std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
   const std::vector<Row> rows = read_rows(file);
   const std::vector<std::string> header = {
@@ -71,7 +126,9 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& f = rows[i].fields;
     const std::string where = file.string() + ":" + std::to_string(rows[i].line);
-    Measurement m{f[0], f[1], f[2], std::numeric_limits<double>::quiet_NaN(), f[4], 0, 0, rows[i].line};
+    Measurement m;
+    m.condition = f[0], m.quantity = f[1], m.unit = f[2], m.coordinate_unit = f[4], m.line = rows[i].line;
+    m.coordinate = std::numeric_limits<double>::quiet_NaN();
     for (const int needed : {0, 1})
       if (f[needed].empty()) throw InputError(where + ": the " + header[needed] + " is missing.");
     if (f[2].empty()) throw InputError(where + ": " + f[1] + " has no unit. Write 1 for a pure number.");
@@ -91,6 +148,7 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
       throw InputError(where + ": this point stands in the file twice.");
     result.push_back(m);
   }
+  add_correlated_parts(read_correlated_parts(file), file, result);
   return result;
 }
 

@@ -14,7 +14,9 @@ struct Measurement {
   std::string coordinate_unit;
   double value = 0;
   double standard_uncertainty = 0;
-  int line = 0;  ///< of the file
+  int line = 0;                       ///< of the file
+  double correlated_uncertainty = 0;  ///< the part that neighbours share [unit], beside the one above
+  double correlation_length = 0;      ///< [coordinate_unit]
 };
 
 /// One set of conditions: what differs from the base .prm.
@@ -25,8 +27,10 @@ struct Condition {
 };
 
 /// Reads `condition,quantity,unit,coordinate,coordinate_unit,value,standard_uncertainty`; lines that begin
-/// with # are comments. Errors: InputError with file and line for a missing column, a number that is none,
-/// not finite, a missing unit, an uncertainty that is not positive, a point given twice.
+/// with # are comments. A comment `# correlated,QUANTITY,UNIT,UNCERTAINTY,COORDINATE_UNIT,LENGTH` gives all
+/// values of a quantity a further standard uncertainty that neighbours share, with correlation
+/// exp(-distance/LENGTH); LENGTH may be inf. Errors: InputError with file and line for a missing column, a
+/// number that is none, not finite, a missing unit, an uncertainty that is not positive, a point given twice.
 std::vector<Measurement> read_measurements(const std::filesystem::path& file);
 
 /// Reads `condition,held_out,` and one column per entry that differs, named `Section/Entry [unit]`; held_out

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "seedflow/diagnose/diagnosis.h"
+#include "seedflow/diagnose/run_store.h"
+
+namespace seedflow {
+
+/// One measured value in SI units, tied to a condition of the model.
+struct DataPoint {
+  int condition = 0, series = 0;  ///< a series is one quantity under one condition
+  std::string quantity;
+  double coordinate = 0;  ///< NaN if the quantity has none
+  double value = 0, sigma = 0;
+  double correlated_sigma = 0, correlation_length = 0;
+};
+
+/// What a simulated value depends on, besides the base model.
+struct Setting {
+  std::map<int, double> amplitude;  ///< of candidates, by index; others absent
+  std::map<int, double> error;      ///< of input errors, by index, in standard deviations; others 0
+  double step_factor = 1;           ///< on the time step
+};
+
+/// The simulation as a function: settings -> values at all measured points. Runs are remembered by the store.
+class ObservableModel {
+ public:
+  /// Checks the problem. Throws InputError naming file, line or entry.
+  ObservableModel(const Problem& problem, RunStore& store);
+
+  const std::vector<DataPoint>& points() const { return data; }
+  const std::vector<Condition>& conditions() const { return problem.conditions; }
+  const std::vector<Candidate>& candidates() const { return all_candidates; }
+  const std::vector<Nuisance>& nuisances() const { return all_nuisances; }
+  const std::vector<std::string>& regimes() const { return observer.regimes; }
+  int n_series() const { return series_count; }
+
+  /// Input errors: one per nuisance and group of conditions that share it.
+  struct UncertainInput {
+    int nuisance = 0;
+    std::vector<bool> applies;  ///< per condition
+  };
+  const std::vector<UncertainInput>& uncertain_inputs() const { return errors; }
+
+  /// Values at all points, NaN in conditions whose run failed.
+  Eigen::VectorXd predict(const Setting& setting);
+  /// The same for another condition, at the same quantities and coordinates as `like`.
+  Eigen::VectorXd predict_condition(const Condition& condition, int like, const Setting& setting);
+  /// A regime beside every point (NaN where it has none), in the base model.
+  Eigen::VectorXd regime(const std::string& name);
+  /// Effects that are on in the base model and do nothing, by condition.
+  std::vector<std::string> idle_effects();
+  bool can_halve_step() const { return !step_path.empty(); }
+  std::size_t points_in(int condition) const { return wanted[condition].size(); }
+
+  /// Entries of the .prm that make up a setting under one condition.
+  std::vector<std::pair<std::string, double>> changes(const Setting& setting, int condition) const;
+  /// Candidates and nuisances that the base model already has.
+  double base_value(const std::string& path, int condition) const;
+
+  const std::vector<RunRecord>& failures() const { return failed; }
+  long runs() const { return n_runs; }
+
+ private:
+  void read_points();
+  void choose_candidates();
+  void choose_nuisances();
+  const PreparedRun& prepare(const Condition& condition);
+  const RunOutcome& run(const Condition& condition, const PreparedRun& ready,
+                        const std::vector<std::pair<std::string, double>>& changes,
+                        const std::vector<WantedValue>& wanted);
+
+  const Problem& problem;
+  RunStore& store;
+  Observer observer;
+  std::string identity;  ///< of the base model
+  std::vector<const PreparedRun*> ready;
+  std::vector<DataPoint> data;
+  std::vector<std::vector<WantedValue>> wanted;       ///< per condition
+  std::vector<std::vector<std::size_t>> point_index;  ///< of the wanted values
+  std::vector<Candidate> all_candidates;
+  std::vector<Nuisance> all_nuisances;
+  std::vector<UncertainInput> errors;
+  std::string step_path;
+  std::vector<RunRecord> failed;
+  int series_count = 0;
+  long n_runs = 0;
+};
+
+}  // namespace seedflow

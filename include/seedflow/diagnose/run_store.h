@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seedflow/experiment/observation.h"
+
+namespace seedflow {
+
+/// What came out of one run of one condition.
+struct RunOutcome {
+  std::vector<double> values;  ///< empty if it failed
+  std::string error;           ///< why it failed, or ""
+  double seconds = 0;
+  bool ok() const { return error.empty(); }
+};
+
+/// Remembers every run, so that none is made twice: in memory, and in a file of the given folder, from which
+/// an interrupted diagnosis goes on. The file holds one line per finished run (JSON: key, values, error,
+/// seconds); a line cut off by a killed process is ignored.
+class RunStore {
+ public:
+  RunStore() = default;
+  /// Errors: InputError if the folder cannot be written.
+  explicit RunStore(const std::filesystem::path& folder);
+  ~RunStore();
+  RunStore(const RunStore&) = delete;
+  RunStore& operator=(const RunStore&) = delete;
+
+  /// The remembered outcome, or that of `run`, which is called if there is none. What it throws (except
+  /// Interrupted) and values that are not finite become a failed outcome.
+  const RunOutcome& get(const std::string& key, const std::function<std::vector<double>()>& run);
+
+  /// Models made ready, by file content and overrides.
+  const PreparedRun& prepared(const std::string& key, const std::function<PreparedRun()>& prepare);
+
+  long computed() const { return n_computed; }
+  std::size_t size() const { return outcomes.size(); }
+
+ private:
+  std::map<std::string, RunOutcome> outcomes;
+  std::map<std::string, PreparedRun> ready;
+  struct Close {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
+  std::unique_ptr<std::FILE, Close> file;
+  long n_computed = 0;
+};
+
+}  // namespace seedflow

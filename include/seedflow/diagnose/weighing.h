@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "seedflow/diagnose/gaussian_fit.h"
+#include "seedflow/diagnose/responses.h"
+
+namespace seedflow {
+
+/// What may explain the data: a set of candidates (empty: nothing is missing), or one nuisance whose prior is
+/// widened eightfold (an input is off).
+struct Hypothesis {
+  std::vector<int> set;
+  int nuisance = -1;
+};
+
+/// A hypothesis beside the data.
+struct Weighed {
+  Hypothesis what;
+  bool possible = true;             ///< its runs succeeded
+  double score = -1e300;            ///< log evidence less the prices of multiplicity and of unstated noise
+  double score_as_stated = -1e300;  ///< with the noise as stated
+  NoiseVariant noise;               ///< the best
+  std::vector<double> amplitude, deviation;  ///< of the candidates, with standard deviations
+  LinearModel linear;                        ///< about the fitted amplitudes
+  LinearFit fit;                             ///< under the best noise
+};
+
+/// Scores hypotheses against measured values (fixed published coefficients, amplitude prior N(1, 0.25)).
+class Weighing {
+ public:
+  static constexpr double amplitude_deviation = 0.25;
+  static constexpr double odds = 0.01;            ///< prior probability that an effect is missing
+  static constexpr double price_of_noise = 4;     ///< for noise other than stated, nats
+  static constexpr double form_tolerance = 0.07;  ///< published forms of one effect differ by about this
+  static constexpr double widening = 8;           ///< of the prior of an input that may be off
+
+  /// `acting`: candidates that change anything.
+  Weighing(ObservableModel& model, Responses& responses, const DataNoise& noise, int acting);
+
+  /// `joint`: the runs of the whole set are made; otherwise changes are added up.
+  Weighed weigh(const Hypothesis& what, const std::vector<bool>& use, bool joint,
+                const std::vector<NoiseVariant>& variants);
+  /// The linear model of a hypothesis about given amplitudes.
+  LinearModel linearise(const Hypothesis& what, const std::vector<double>& amplitude, bool joint);
+  double price(const Hypothesis& what) const;
+  /// First column of the amplitudes among the directions.
+  Eigen::Index first_amplitude();
+
+ private:
+  ObservableModel& model;
+  Responses& responses;
+  const DataNoise& noise;
+  Eigen::VectorXd measured;
+  int acting;
+};
+
+}  // namespace seedflow
