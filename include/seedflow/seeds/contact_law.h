@@ -56,9 +56,14 @@ SEEDFLOW_INLINE NormalForce<Real> normal_force_of(const ContactLaw& law, const C
 /// has its memory cleared, so unused lanes may hold any finite numbers with overlap <= 0 and attached = 0.
 ///
 /// The tangential spring is turned into the present tangent plane and, when the contact slides, shortened so
-/// that the spring alone carries mu times the repulsion. Damping acts only while sticking. Without cohesion
-/// the normal force may be attractive at the end of a rebound (that makes restitution out equal restitution
-/// in); Coulomb's limit then is zero. The repulsion is the elastic part and damping, without cohesion.
+/// that the spring alone carries Coulomb's limit. Damping acts only while sticking. Without cohesion the
+/// normal force may be attractive at the end of a rebound: that makes restitution out equal restitution in.
+///
+/// Coulomb's limit, and the load of rolling friction, is the elastic repulsion, without damping and cohesion.
+/// Its impulse over a collision is exactly that of the whole normal force, m* (1 + e) v_n, because the
+/// impulse of the damping is an integral over the overlap alone, which returns to zero: so a collision that
+/// slides throughout transfers mu m* (1 + e) v_n. The repulsive part with damping would give 3 % more at e =
+/// 0.526.
 template <Rolling rolling, Cohesion cohesion, class Real>
 SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const ContactKinematics<Real>& c,
                                                    double step, ContactMemory<Real>& memory) {
@@ -70,11 +75,11 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   const Real damping = c.share * lane_sqrt(c.reduced_mass * f.contact_radius);
   const Real normal_speed = dot(c.velocity, c.normal);
   const Vector slip = c.velocity - normal_speed * c.normal;
-  const Real pushing =
-      c.share * f.repulsion -
-      (law.normal_damping * damping + law.viscous_damping * c.share * f.contact_radius) * normal_speed;
   ContactAction<Real> result;
-  result.repulsion = lane_max(pushing, zero);
+  result.repulsion = c.share * f.repulsion;
+  const Real pushing =
+      result.repulsion -
+      (law.normal_damping * damping + law.viscous_damping * c.share * f.contact_radius) * normal_speed;
 
   Vector spring = turned_into_plane<Real>(memory.spring, c.normal) + step * slip;
   const Real limit = law.static_friction * result.repulsion;

@@ -35,7 +35,7 @@ template <class Real>
 struct ContactAction {
   VectorOf<Real> force;   ///< [N]
   VectorOf<Real> torque;  ///< of rolling friction [N m]
-  Real repulsion{};       ///< repulsive normal part, >= 0 [N]; Coulomb's limit is mu times this
+  Real repulsion{};       ///< elastic, >= 0 [N]; Coulomb's limit is mu times this
 };
 
 /// A vector kept in the tangent plane of a contact that turns: its part along the normal is removed and its
