@@ -27,6 +27,9 @@ TimeLaw::Value TimeLaw::at(double time) const {
       v = {amplitude * (std::sin(w * t + phase) - std::sin(phase)), amplitude * w * std::cos(w * t + phase)};
       break;
     }
+    case Kind::expression:
+      v = {expression->value(t), over ? 0 : expression->rate(t)};
+      break;
   }
   if (over) v.rate = 0;
   return v;
@@ -41,6 +44,15 @@ void make_unit(Vec3& direction, const TimeLaw& law, const std::string& name, con
   direction /= size;
   if (law.kind == TimeLaw::Kind::ramp && !(law.duration > 0))
     throw InputError("Wall '" + name + "': a ramp needs a duration above 0 s.");
+  if (law.kind == TimeLaw::Kind::expression) {
+    if (!law.expression) throw InputError("Wall '" + name + "': " + what + " has no expression in time.");
+    const double at_start = law.expression->value(0);
+    if (std::abs(at_start) > 1e-12)
+      throw InputError("Wall '" + name + "': the expression \"" + law.expression->text() + "\" is " +
+                       std::to_string(at_start) +
+                       " at t = 0, so the wall would jump. Make it 0 there; t counts from the start of the "
+                       "motion.");
+  }
   if (!(law.stop >= law.start))
     throw InputError("Wall '" + name + "': the motion stops at " + std::to_string(law.stop) +
                      " s, before it starts at " + std::to_string(law.start) + " s.");

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "seedflow/base/quaternion.h"
+#include "seedflow/seeds/time_expression.h"
 
 namespace seedflow {
 
@@ -11,16 +13,18 @@ namespace seedflow {
 ///   constant    speed t'
 ///   ramp        speed t'^2 / (2 duration) up to t' = duration, then at constant speed
 ///   sinusoid    amplitude (sin(2 pi frequency t' + phase) - sin(phase))
+///   expression  a function of t' given as text, 0 at t' = 0
 /// After `stop` it keeps its value.
 struct TimeLaw {
-  enum class Kind { rest, constant, ramp, sinusoid };
+  enum class Kind { rest, constant, ramp, sinusoid, expression };
 
   Kind kind = Kind::rest;
   double speed = 0;                                ///< [m/s] or [rad/s]
   double duration = 0;                             ///< of the ramp [s]
   double amplitude = 0, frequency = 0, phase = 0;  ///< [m] or [rad], [1/s], [rad]
-  double start = 0;                                ///< [s]
-  double stop = 1e300;                             ///< [s]
+  std::shared_ptr<const TimeExpression> expression;
+  double start = 0;     ///< [s]
+  double stop = 1e300;  ///< [s]
 
   struct Value {
     double value = 0, rate = 0;  ///< s and ds/dt
