@@ -51,7 +51,8 @@ struct Profile {
       const double along = std::clamp(dot(x - a, direction), 0.0, length);
       const Flat point{a.s + along * direction.s, a.z + along * direction.z};
       const double square = dot(x - point, x - point);
-      if (square < least) least = square, best = {point, outward, 0, front, back};
+      // The faces begin behind the hole's edge.
+      if (square < least) least = square, best = {point, outward, 0, front && along > 0, back && along > 0};
       if (height > deepest)
         deepest = height,
         surface = {{x.s - height * outward.s, x.z - height * outward.z}, outward, height, front, back};
