@@ -40,14 +40,14 @@ class Report {
   void add(const BarPlot& plot);
   void add(const HeatMap& plot);
   void add(const Table& table);
+  /// Any other drawing (an <svg> element), numbered with the plots.
+  void figure(const std::string& svg, const std::string& caption);
 
   std::string html() const;
   /// Atomically. Errors: RunError.
   void write(const std::filesystem::path& file) const;
 
  private:
-  void figure(const std::string& svg, const std::string& caption);
-
   std::string title, command, version;
   std::string lead_html, verdict_html, body;
   int n_figures = 0, n_tables = 0;

@@ -1,0 +1,142 @@
+#include "seedflow/experiment/slope_screening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "seedflow/base/binary.h"
+#include "seedflow/base/error.h"
+
+namespace seedflow {
+
+namespace {
+
+/// Staggered rows along x; rows and columns keep a hole's radius and half a millimetre from the plate's edge.
+HoleLattice holes_of(const SlopeScreening& e) {
+  HoleLattice holes;
+  holes.pitch_along = e.pitch;
+  holes.pitch_across = e.pitch * std::sqrt(0.75);
+  holes.staggered = true;
+  const double rim = 0.5 * e.hole + 0.5e-3;
+  // The shifted rows need half a pitch more room.
+  holes.n_along = 1 + static_cast<int>((e.length - 2 * rim - 0.5 * e.pitch) / holes.pitch_along);
+  holes.n_across = 1 + static_cast<int>((e.width - 2 * rim) / holes.pitch_across);
+  return holes;
+}
+
+}  // namespace
+
+double SlopeScreening::Bins::passed() const {
+  return std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+
+int SlopeScreening::n_holes() const {
+  return seedflow::n_holes(holes_of(*this));
+}
+
+Vec3 SlopeScreening::gravity() const {
+  const double g = norm(granular.dem.gravity);
+  return {g * std::sin(inclination), 0, -g * std::cos(inclination)};
+}
+
+void SlopeScreening::declare(Parameters& p) {
+  granular.declare(p);
+  const auto section =
+      p.section("Screen", "The inclined sieve plate, its loading area and its insert plate.");
+  p.number("Inclination", inclination, "rad", Range::between(0, 1.2), "Of the plate against the horizontal.");
+  p.number("Length", length, "m", Range::positive(), "Of the plate along the slope.");
+  p.number("Width", width, "m", Range::positive(), "Of the plate and the loading area.");
+  p.number("Thickness", thickness, "m", Range::positive(), "Of the plate.");
+  p.number("Hole diameter", hole, "m", Range::positive(), "Of the round holes.");
+  p.number("Hole pitch", pitch, "m", Range::positive(),
+           "Distance of neighbouring holes in staggered rows. The paper prints none; chosen.");
+  p.number("Loading length", loading_length, "m", Range::positive(),
+           "Of the loading area along the slope. The paper prints none; chosen.");
+  p.number("Insert speed", insert_speed, "m/s", Range::positive(),
+           "At which the insert plate in front of the seeds is pulled away, along the plate's normal.");
+  p.text("Material", material, "Of plate and walls, one of Materials/Names.");
+}
+
+void SlopeScreening::check(const Parameters& p) {
+  granular.check(p, {"Screen/Material"});
+  if (pitch <= hole) p.reject("Screen/Hole pitch", "the holes overlap", "use more than Screen/Hole diameter");
+  if (hole + 1e-3 > std::min(length, width) / 2)
+    p.reject("Screen/Hole diameter", "the plate has no room for such holes", "use a larger plate");
+  const Vec3 g = granular.dem.gravity;
+  if (g.x != 0 || g.y != 0 || !(g.z < 0))
+    p.reject("Seeds motion/Gravity", "the plate is inclined by Screen/Inclination; gravity must point down",
+             "write it as 0, 0, -9.81");
+  granular.dem.gravity = gravity();
+}
+
+GranularScene SlopeScreening::scene(Bins& bins) const {
+  GranularScene s;
+  const int resin = granular.materials.number(material);
+  const double d = granular.model.diameter, height = 150e-3, below = thickness + 12 * d;
+  s.low = {-loading_length - d, -d, -below};
+  s.high = {length + 40 * d, width + d, height};
+
+  Plate plate;
+  plate.centre = {0.5 * length, 0.5 * width, -0.5 * thickness};
+  plate.thickness = thickness;
+  plate.outline = RectangleOutline{length, width};
+  plate.holes = holes_of(*this);
+  plate.hole_radius = 0.5 * hole;
+  s.walls = {
+      Wall("sieve plate", plate, resin),
+      Wall("floor of the loading area",
+           Rectangle{{-0.5 * loading_length, 0.5 * width, 0}, {0, 0, 1}, {1, 0, 0}, loading_length, width},
+           resin),
+      Wall("back of the loading area", Plane{{-loading_length, 0, 0}, {1, 0, 0}}, resin),
+      Wall("left side", Plane{{0, 0, 0}, {0, 1, 0}}, resin),
+      Wall("right side", Plane{{0, width, 0}, {0, -1, 0}}, resin)};
+  const int insert = static_cast<int>(s.walls.size());
+  // The insert stands 0.1 d in front of the first holes' plate edge, on the loading area's floor.
+  s.walls.emplace_back("insert plate",
+                       Rectangle{{0, 0.5 * width, 0.5 * height}, {1, 0, 0}, {0, 1, 0}, width, height}, resin);
+  s.rooms = {{"loading area", {-loading_length, 0, 0}, {0, width, height}}};
+
+  const double speed = insert_speed, gone = height / speed;
+  s.begin = [this, insert, speed, gone, &bins](Dem& dem, double start) {
+    Wall& wall = dem.wall(insert);
+    wall.motion = WallMotion::constant({0, 0, speed});
+    wall.motion.displacement.start = start;
+    wall.motion.displacement.stop = start + gone;
+    if (bins.all > 0) return;  // after a resume
+    for (const double m : dem.masses()) bins.all += m;
+  };
+  s.after_interval = [this, insert, gone, d, &bins](Dem& dem, double time) {
+    if (time >= gone) dem.set_wall_active(insert, false);
+    std::vector<int> left;
+    for (int i = 0; i < dem.n_seeds(); ++i) {
+      const Vec3 x = dem.seed_state(i).centre;
+      const bool over = x.x > length + d, through = x.z < -thickness - d;
+      if (!over && !through) continue;
+      const double mass = dem.seed_template(i).mass;
+      // The bins stand upright below the plate; their edges are at fifths of its length.
+      const int area = std::clamp(static_cast<int>(x.x / length * n_areas), 0, n_areas - 1);
+      (over ? bins.over_end : bins.mass[area]) += mass;
+      left.push_back(i);
+    }
+    bins.seeds += static_cast<long>(left.size());
+    dem.remove_seeds(left);
+  };
+  s.finished = [](const Dem& dem, double time) {
+    return time > 0.5 && (dem.n_seeds() == 0 || kinetic_energy_per_seed(dem) < 1e-11);
+  };
+  for (int area = 0; area < n_areas; ++area) s.columns.push_back({"area " + std::to_string(area + 1), "%"});
+  s.columns.push_back({"over the end", "%"});
+  s.observe = [&bins](const Dem&, double) {
+    std::vector<double> row;
+    for (int area = 0; area < n_areas; ++area) row.push_back(bins.all > 0 ? bins.percentage(area) : 0);
+    row.push_back(bins.all > 0 ? 100 * bins.over_end / bins.all : 0);
+    return row;
+  };
+  s.save = [&bins](std::ostream& out) { write_binary(out, bins); };
+  s.load = [&bins](std::istream& in) { read_binary(in, bins); };
+  s.not_of_filling = {"Screen/Inclination", "Screen/Insert speed", "Screen/Hole diameter",
+                      "Screen/Hole pitch"};
+  return s;
+}
+
+}  // namespace seedflow
