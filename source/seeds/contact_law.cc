@@ -28,6 +28,7 @@ ContactLaw::ContactLaw(const Material& a, const Material& b, const ContactProper
   const double log_e = std::log(p.restitution);
   beta = -log_e / std::sqrt(log_e * log_e + M_PI * M_PI);
   static_friction = p.static_friction;
+  partial_slip = p.tangential_model == "Mindlin with partial slip";
 
   // k_n = 4/3 E* a and k_t = 8 G* a make both damping coefficients multiples of sqrt(m* a).
   tangential_damping = beta * std::sqrt(80.0 / 3 * shear);

@@ -12,9 +12,9 @@
 namespace seedflow {
 namespace {
 
-const std::vector<std::string> rolling_models{"none", "constant torque", "EPSD"},
-    restitution_laws{"constant", "viscoelastic"}, counterparts{"sphere", "plane"},
-    cohesions{"none", "JKR", "capillary bridge"};
+const std::vector<std::string> tangential_models{"Mindlin without slip", "Mindlin with partial slip"},
+    rolling_models{"none", "constant torque", "EPSD"}, restitution_laws{"constant", "viscoelastic"},
+    counterparts{"sphere", "plane"}, cohesions{"none", "JKR", "capillary bridge"};
 
 void require_option(const std::string& where, const char* entry, const std::string& value,
                     const std::vector<std::string>& options) {
@@ -44,6 +44,10 @@ void ContactProperties::declare(Parameters& p) {
            "Coulomb's coefficient of friction.");
   p.number("Rolling friction", rolling_friction, "1", Range::non_negative(),
            "Coefficient of rolling friction.");
+  p.choice(
+      "Tangential model", tangential_model, tangential_models,
+      "Without slip: spring 8 G* a up to Coulomb's limit, the usual one. With partial slip: softer where "
+      "the rim of the contact slips (Walton & Braun 1986), which small impact angles show.");
   p.choice("Rolling model", rolling_model, rolling_models,
            "constant torque: mu_r N R against the rotation. EPSD: elastic-plastic spring and dashpot (Ai et "
            "al. 2011), the one that comes to rest.");
@@ -75,12 +79,16 @@ void ContactProperties::check(const std::string& where) const {
           "allowed is above 0 up to 1.");
   require(static_friction >= 0, where, "Static friction", static_friction, "allowed is 0 or more.");
   require(rolling_friction >= 0, where, "Rolling friction", rolling_friction, "allowed is 0 or more.");
+  require_option(where, "Tangential model", tangential_model, tangential_models);
   require_option(where, "Rolling model", rolling_model, rolling_models);
   require_option(where, "Restitution law", restitution_law, restitution_laws);
   require_option(where, "Restitution counterpart", restitution_counterpart, counterparts);
   require_option(where, "Cohesion", cohesion, cohesions);
   require(rolling_model != "EPSD" || rolling_friction > 0, where, "Rolling friction", rolling_friction,
           "the rolling model EPSD needs a positive one. Choose 'Rolling model = none' to roll freely.");
+  if (cohesion != "none" && tangential_model != "Mindlin without slip")
+    throw InputError(where + "'Tangential model = " + tangential_model +
+                     "' is made for contacts without cohesion. Choose 'Mindlin without slip'.");
   if (cohesion == "JKR") {
     require(surface_energy > 0, where, "Surface energy", surface_energy,
             "cohesion JKR needs a positive one. Choose 'Cohesion = none' for none.");

@@ -5,6 +5,7 @@
 #include "seedflow/seeds/cohesion.h"
 #include "seedflow/seeds/contact_state.h"
 #include "seedflow/seeds/material.h"
+#include "seedflow/seeds/partial_slip.h"
 #include "seedflow/seeds/rolling_friction.h"
 
 namespace seedflow {
@@ -22,6 +23,7 @@ struct ContactLaw {
   double beta = 0;              ///< damping [1], >= 0
   double static_friction = 0;   ///< mu [1]
   double rolling_friction = 0;  ///< mu_r [1]
+  bool partial_slip = false;    ///< softer than 8 G* a where the rim slips (partial_slip.h)
   Rolling rolling = Rolling::none;
   RollingNumbers rolling_numbers;
   Cohesion cohesion = Cohesion::none;
@@ -81,15 +83,23 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
       result.repulsion -
       (law.normal_damping * damping + law.viscous_damping * c.share * f.contact_radius) * normal_speed;
 
-  Vector spring = turned_into_plane<Real>(memory.spring, c.normal) + step * slip;
   const Real limit = law.static_friction * result.repulsion;
   const Real stiffness = 8 * law.shear * c.share * f.contact_radius;
+  const Real touches = select(f.contact_radius > zero, zero + 1.0, zero);
+  Vector spring = memory.spring;
+  if (cohesion == Cohesion::none && law.partial_slip) {
+    partial_slip<Real>(c, slip, normal_speed, limit / lane_max(stiffness, zero + 1e-100), step, spring,
+                       memory.attached);
+    memory.attached *= touches;
+  } else {
+    spring = turned_into_plane<Real>(spring, c.normal) + step * slip;
+  }
   const Real trial = stiffness * norm(spring);
   spring = cut(trial, limit) * spring;
   Vector tangential =
       -stiffness * spring - select(trial > limit, zero, law.tangential_damping * damping) * slip;
   tangential = cut<Real>(norm(tangential), limit) * tangential;
-  memory.spring = select(f.contact_radius > zero, zero + 1.0, zero) * spring;
+  memory.spring = touches * spring;
   if constexpr (cohesion == Cohesion::none)
     result.force = pushing * c.normal + tangential;
   else
@@ -99,7 +109,6 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
     result.torque =
         constant_rolling_torque(law.rolling_numbers, c, result.repulsion, step > 0 ? 1 / step : 1e200);
   if constexpr (rolling == Rolling::epsd) {
-    const Real touches = select(f.contact_radius > zero, zero + 1.0, zero);
     const Real k = 4.0 / 3 * law.young * c.share * f.contact_radius;
     result.torque =
         touches * epsd_rolling_torque(law.rolling_numbers, c, result.repulsion, k, step, memory.rolling);

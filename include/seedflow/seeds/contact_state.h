@@ -26,7 +26,7 @@ template <class Real>
 struct ContactMemory {
   VectorOf<Real> spring;   ///< tangential displacement since the contact began [m]
   VectorOf<Real> rolling;  ///< rolling angle since the contact began (EPSD) [rad]
-  Real attached{};         ///< 1 while a cohesive contact holds, else 0
+  Real attached{};         ///< 1 while a cohesive contact holds, else 0; partial slip: its turning point
 };
 
 /// What a contact does to the first body; the second receives the opposite force (at the same point) and

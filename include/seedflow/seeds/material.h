@@ -23,6 +23,8 @@ struct ContactProperties {
   double static_friction = 0.297;  ///< Coulomb coefficient mu [1]
   double rolling_friction = 0.03;  ///< coefficient of rolling friction mu_r [1]
 
+  std::string tangential_model = "Mindlin without slip";  ///< or Mindlin with partial slip
+
   std::string rolling_model = "constant torque";  ///< none | constant torque | EPSD
   double rolling_damping = 0.3;                   ///< damping ratio eta of EPSD [1]
   double mobilised_damping = 0;                   ///< part of EPSD's dashpot left at full mobilisation [1]
