@@ -126,10 +126,12 @@ LinearFit fit(const DataNoise& noise, const NoiseVariant& variant, const LinearM
   result.log_evidence = -0.5 * (result.chi2 + log_determinant + result.points * std::log(2 * M_PI));
   result.mean = start + root * x;
   result.covariance = root * factor.solve(Eigen::MatrixXd(root.transpose()));
-  result.gradient = Eigen::VectorXd::Zero(model.residual.size());
+  result.gradient = result.innovations = Eigen::VectorXd::Zero(model.residual.size());
   for (std::size_t s = 0; s < parts.size(); ++s) {
     if (!use[s]) continue;
     Eigen::VectorXd left = parts[s].white.col(q) - parts[s].white.leftCols(q) * x;
+    for (std::size_t i = 0; i < noise.series()[s].size(); ++i)
+      result.innovations[noise.series()[s][i]] = left[static_cast<Eigen::Index>(i)];
     parts[s].factor.matrixL().transpose().solveInPlace(left);
     for (std::size_t i = 0; i < noise.series()[s].size(); ++i)
       result.gradient[noise.series()[s][i]] = left[static_cast<Eigen::Index>(i)];

@@ -111,6 +111,7 @@ void ObservableModel::read_points() {
     DataPoint point;
     point.condition = static_cast<int>(found - problem.conditions.begin());
     point.quantity = m.quantity;
+    point.unit_scale = scale;
     point.value = scale * m.value;
     point.sigma = scale * m.standard_uncertainty;
     point.correlated_sigma = scale * m.correlated_uncertainty;
@@ -189,7 +190,7 @@ double ObservableModel::base_value(const std::string& path, int condition) const
 
 std::vector<std::pair<std::string, double>> ObservableModel::changes(const Setting& setting,
                                                                      int condition) const {
-  std::map<std::string, double> values;
+  std::map<std::string, double> values = setting.entries;
   for (const auto& [k, a] : setting.amplitude)
     for (const Candidate::Entry& e : all_candidates[k].entries)
       values[e.path] = e.absent + a * (e.published - e.absent);

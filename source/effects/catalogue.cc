@@ -55,6 +55,7 @@ std::vector<EffectDefinition> effect_catalogue() {
       wall_lift(),
       magnus_lift(),
       rotational_drag(),
+      inferred_law(),
   };
 }
 

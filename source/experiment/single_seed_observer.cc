@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <sstream>
 
 #include "seedflow/base/nearest_name.h"
 #include "seedflow/experiment/single_seed.h"
@@ -129,6 +130,17 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
     std::vector<std::string> idle;
     run_single_seed(*base, {base->end_time}, &idle);
     return idle;
+  };
+  run.parameters_text = [prm, overrides](const std::vector<std::string>& further) {
+    SingleSeedParameters p;
+    Parameters all;
+    p.declare(all);
+    std::vector<std::string> both = overrides;
+    both.insert(both.end(), further.begin(), further.end());
+    all.read(prm, both);
+    std::ostringstream text;
+    all.write(text);
+    return text.str();
   };
   run.time_step = "Run/Time step";
   return run;

@@ -142,6 +142,7 @@ struct Diagnosis {
   long runs = 0, runs_computed = 0;  ///< asked for; computed now and not remembered
   /// Values at all measured points: before, and after with everything fitted.
   std::vector<double> before, after;
+  std::vector<double> unit_scale;  ///< SI value over value in the unit of the measurement, per point
 };
 
 class RunStore;

@@ -55,9 +55,10 @@ struct LinearFit {
   double log_evidence = 0;  ///< log of the density of the residual
   double chi2 = 0;          ///< residual^T K^-1 residual, K with everything marginalised
   int points = 0;
-  Eigen::VectorXd mean;        ///< of x
-  Eigen::MatrixXd covariance;  ///< of x
-  Eigen::VectorXd gradient;    ///< K^-1 residual, zero at points left out
+  Eigen::VectorXd mean;         ///< of x
+  Eigen::MatrixXd covariance;   ///< of x
+  Eigen::VectorXd gradient;     ///< K^-1 residual, zero at points left out
+  Eigen::VectorXd innovations;  ///< what every value adds to the ones before it in its series, N(0, 1)
 };
 
 /// Fits the points of the series for which `use` holds. With `prior`, x has that posterior of an earlier fit

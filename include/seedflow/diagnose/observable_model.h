@@ -18,6 +18,7 @@ struct DataPoint {
   double coordinate = 0;  ///< NaN if the quantity has none
   double value = 0, sigma = 0;
   double correlated_sigma = 0, correlation_length = 0;
+  double unit_scale = 1;  ///< SI value over value in the unit of the measurement
 };
 
 /// What a simulated value depends on, besides the base model.
@@ -25,6 +26,7 @@ struct Setting {
   std::map<int, double> amplitude;  ///< of candidates, by index; others absent
   std::map<int, double> error;      ///< of input errors, by index, in standard deviations; others 0
   double step_factor = 1;           ///< on the time step
+  std::map<std::string, double> entries = {};  ///< further entries by path, SI
 };
 
 /// The simulation as a function: settings -> values at all measured points. Runs are remembered by the store.

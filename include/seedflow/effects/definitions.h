@@ -19,5 +19,6 @@ EffectDefinition saffman_lift();
 EffectDefinition wall_lift();
 EffectDefinition magnus_lift();
 EffectDefinition rotational_drag();
+EffectDefinition inferred_law();
 
 }  // namespace seedflow

@@ -38,6 +38,8 @@ struct PreparedRun {
       observe;
   /// Entries that are on and did nothing in the base run ("" entries none); computed by running it.
   std::function<std::vector<std::string>()> idle_effects;
+  /// The complete .prm with further overrides, to be run as it is.
+  std::function<std::string(const std::vector<std::string>& overrides)> parameters_text;
   std::string time_step;  ///< path of the entry whose halving shows the numerical error, or ""
 };
 

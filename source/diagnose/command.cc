@@ -1,0 +1,43 @@
+#include "seedflow/diagnose/command.h"
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <ostream>
+
+#include "seedflow/base/error.h"
+#include "seedflow/diagnose/diagnosis_files.h"
+#include "seedflow/diagnose/problem_file.h"
+#include "seedflow/diagnose/run_store.h"
+
+namespace seedflow {
+
+namespace {
+
+int run(const CommandLine&, const std::vector<std::string>& arguments, std::ostream& out) {
+  const RunOptions options = read_run_options(arguments);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const Problem problem = read_problem(options.prm, options.overrides);
+  if (rank != 0) return exit_done;
+  const std::filesystem::path folder = options.output;
+  RunStore store(folder);
+  const Diagnosis answer = diagnose(problem, store);
+  write_diagnosis(folder / "diagnosis.json", problem, answer);
+  write_diagnosed_model(folder / (problem.name + ".diagnosed.prm"), problem, answer);
+  write_diagnosis_report(folder / "report.html", problem, answer, "./seedflow diagnose " + options.prm);
+  out << verdict_name(answer.verdict) << ": " << answer.sentence << "\n";
+  for (const std::string& remark : answer.remarks) out << "  " << remark << "\n";
+  out << answer.runs << " runs, " << answer.runs_computed
+      << " computed now; report: " << (folder / "report.html").string() << std::endl;
+  return exit_done;
+}
+
+}  // namespace
+
+Command diagnose_command() {
+  return {"diagnose", "diagnose FILE.prm [--set \"Section/Entry=value\"]... [--output DIR]",
+          "find what is missing between a model and measurements", run};
+}
+
+}  // namespace seedflow

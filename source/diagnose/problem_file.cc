@@ -1,0 +1,123 @@
+#include "seedflow/diagnose/problem_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "seedflow/base/error.h"
+#include "seedflow/base/nearest_name.h"
+#include "seedflow/base/parameter_file.h"
+#include "seedflow/base/units.h"
+#include "seedflow/effects/catalogue.h"
+
+namespace seedflow {
+
+namespace {
+
+std::string trim(const std::string& s) {
+  const auto a = s.find_first_not_of(" \t"), b = s.find_last_not_of(" \t");
+  return a == std::string::npos ? "" : s.substr(a, b - a + 1);
+}
+
+/// An effect by its name, or "PATH = PUBLISHED" for another entry of the model that is 0 without the effect.
+Candidate read_candidate(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals != std::string::npos) {
+    const std::string path = trim(text.substr(0, equals));
+    NumberWithUnit parts;
+    try {
+      parts = split_unit(text.substr(equals + 1));
+    } catch (const InputError& error) {
+      throw InputError("Candidates: \"" + text + "\": " + error.what());
+    }
+    const Unit unit = parts.unit.empty() ? Unit() : parse_unit(parts.unit);
+    return {path.substr(path.rfind('/') + 1),
+            {{path, 0, std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent)}}};
+  }
+  const std::vector<std::string> names = effect_names();
+  if (std::find(names.begin(), names.end(), text) == names.end())
+    throw InputError("Candidates: there is no effect \"" + text + "\". " + suggestion(text, names, "effect"));
+  return {text, {{"Effects/" + text + "/Strength", 0, 1}}};
+}
+
+}  // namespace
+
+void ProblemFile::declare(Parameters& p) {
+  p.file("Model", model, "The .prm of the base model, as it would be run.");
+  p.file("Measurements", measurements,
+         "CSV: condition,quantity,unit,coordinate,coordinate_unit,value,standard_uncertainty.");
+  p.file("Conditions", conditions, "CSV: condition,held_out, and one column per entry that differs.");
+  p.file("Possible experiments", possible_experiments,
+         "CSV like Conditions: what could be measured next. Nothing: variations of the conditions.");
+  p.texts("Candidates", candidates,
+          "Effects that may be missing, or PATH = VALUE for an entry that is 0 without the effect and VALUE "
+          "with it. Nothing: every effect of the catalogue that is off in the model.");
+  p.texts(
+      "Nuisances", nuisances,
+      "Inputs with their standard uncertainty, as in Seeds/Diameter +- 1 %; with the word each behind it, "
+      "every condition has an error of its own. Nothing: those usual for the experiment.");
+  p.integer("Runs", runs, {1, 1e9, false}, "The most runs of single conditions.");
+  p.integer("Effects at once", largest_names, Range::between(1, 3), "The most effects to name together.");
+}
+
+Nuisance read_nuisance(const std::string& text) {
+  const std::size_t sign = text.find("+-");
+  const auto fail = [&](const std::string& why) {
+    throw InputError("Nuisances: \"" + text + "\": " + why +
+                     " Write an entry and its standard uncertainty, as in Seeds/Diameter +- 1 %.");
+  };
+  if (sign == std::string::npos) fail("\"+-\" is missing.");
+  Nuisance nuisance;
+  nuisance.path = trim(text.substr(0, sign));
+  nuisance.name = nuisance.path;
+  std::string size = trim(text.substr(sign + 2));
+  if (size.size() > 5 && size.compare(size.size() - 5, 5, " each") == 0) {
+    nuisance.each_condition = true;
+    nuisance.name += " of a condition";
+    size = trim(size.substr(0, size.size() - 5));
+  }
+  try {
+    const NumberWithUnit parts = split_unit(size);
+    const Unit unit = parts.unit.empty() ? Unit() : parse_unit(parts.unit);
+    nuisance.relative = parts.unit == "%";
+    nuisance.standard_deviation = std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent);
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
+  if (!(nuisance.standard_deviation > 0)) fail("the uncertainty must be positive.");
+  return nuisance;
+}
+
+Problem read_problem(const std::string& file, const std::vector<std::string>& overrides) {
+  ProblemFile input;
+  Parameters parameters;
+  input.declare(parameters);
+  Problem problem;
+  std::vector<std::string> own;
+  for (const std::string& text : overrides)
+    (scan_override(text).sections.empty() && scan_override(text).name != "Experiment" ? own
+                                                                                      : problem.overrides)
+        .push_back(text);
+  parameters.read(file, own);
+  for (const char* needed : {"Model", "Measurements", "Conditions"})
+    if (parameters.value(needed).empty()) parameters.reject(needed, "it is missing", "name a file");
+  problem.name = std::filesystem::path(file).stem().string();
+  problem.prm = input.model;
+  problem.measurements = read_measurements(input.measurements);
+  problem.conditions = read_conditions(input.conditions);
+  if (!input.possible_experiments.empty())
+    problem.possible_experiments = read_conditions(input.possible_experiments);
+  for (const std::string& text : input.candidates) problem.candidates.push_back(read_candidate(text));
+  for (const std::string& text : input.nuisances) problem.nuisances.push_back(read_nuisance(text));
+  problem.budget = {input.runs, input.largest_names};
+  return problem;
+}
+
+void describe_problem_file(std::ostream& out) {
+  ProblemFile input;
+  Parameters parameters;
+  input.declare(parameters);
+  parameters.describe(out);
+}
+
+}  // namespace seedflow
