@@ -10,12 +10,12 @@ namespace seedflow {
 
 namespace {
 
-/// Distance from x to the nearest plane wall and that wall's normal.
-void nearest_wall(const std::vector<Wall>& walls, const Vec3& x, FlowAtBody& flow) {
-  for (const Wall& wall : walls) {
-    const double distance = dot(x - wall.point, wall.normal);
-    if (distance < flow.wall_distance) flow.wall_distance = distance, flow.wall_normal = wall.normal;
-  }
+/// Distance from x to the nearest wall and that wall's normal there.
+void nearest_wall(const std::vector<Wall>& walls, const Vec3& x, double time, FlowAtBody& flow) {
+  std::vector<WallPoint> points;
+  for (const Wall& wall : walls) contacts_near(wall, x, flow.wall_distance, time, points);
+  for (const WallPoint& p : points)
+    if (p.distance < flow.wall_distance) flow.wall_distance = p.distance, flow.wall_normal = p.normal;
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void BodyLoads::evaluate(const Bodies& bodies, const AirAtBodies& seen, const De
     flow.viscosity = air.viscosity;
     flow.gravity = gravity;
     flow.tube_diameter = tube;
-    nearest_wall(dem.walls(), flow.position, flow);
+    nearest_wall(dem.walls(), flow.position, time, flow);
 
     double amplification = 1.0;  // undisturbed over averaged slip
     flow.flow_velocity = seen.velocity[b];

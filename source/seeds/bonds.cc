@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "seedflow/base/binary.h"
 #include "seedflow/base/parameters.h"
 #include "seedflow/seeds/copy_lane.h"
+#include "seedflow/seeds/seed_share.h"
 
 namespace seedflow {
 
@@ -63,6 +65,7 @@ Bonds::Bonds(const SeedTemplate& model, const BondParameters& bond_parameters)
 }
 
 void Bonds::add_block() {
+  dissipated.push_back(0);
   if (parameters.can_break()) intact.insert(intact.end(), constants.size(), broadcast(1.0));
   if (parameters.form == "incremental") history.insert(history.end(), constants.size(), History{});
 }
@@ -71,6 +74,8 @@ void Bonds::rearrange(const std::vector<int>& from) {
   const std::vector<Lanes> old_intact = std::move(intact);
   const std::vector<History> old_history = std::move(history);
   intact.clear(), history.clear();
+  dissipated_before = dissipated_energy();
+  dissipated.clear();
   const auto copy = [&](auto& now, const auto& old, std::size_t k) {
     if (!now.empty())
       copy_lane(&now[k / lane_width * n_bonds()], k % lane_width, &old[from[k] / lane_width * n_bonds()],
@@ -81,6 +86,16 @@ void Bonds::rearrange(const std::vector<int>& from) {
     copy(intact, old_intact, k);
     copy(history, old_history, k);
   }
+}
+
+double Bonds::dissipated_energy() const {
+  return std::accumulate(dissipated.begin(), dissipated.end(), dissipated_before);
+}
+
+void Bonds::gather(const SeedShare& share, int t) {
+  if (!intact.empty()) share.gather(t, intact, n_bonds());
+  if (!history.empty()) share.gather(t, history, n_bonds());
+  share.gather(t, dissipated, 1);
 }
 
 int Bonds::n_broken(int b, int lane) const {
@@ -142,12 +157,14 @@ void Bonds::save(std::ostream& out) const {
   write_binary(out, intact);
   write_binary(out, history);
   write_binary(out, dissipated);
+  write_binary(out, dissipated_before);
 }
 
 void Bonds::load(std::istream& in) {
   read_binary(in, intact);
   read_binary(in, history);
   read_binary(in, dissipated);
+  read_binary(in, dissipated_before);
 }
 
 }  // namespace seedflow

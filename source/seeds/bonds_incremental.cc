@@ -69,7 +69,7 @@ void Bonds::add_incremental(const SphereLanes* spheres, ForceLanes* forces, int 
     fj.torque += moment - lever;
     fi.torque -= moment + lever;
   }
-  dissipated += lane_sum(lost);
+  dissipated[b] += lane_sum(lost);
 }
 
 }  // namespace seedflow

@@ -109,7 +109,7 @@ void Bonds::add_total(const SphereLanes* spheres, ForceLanes* forces, int b, dou
     forces[i].force = force_i;
     forces[i].torque = torque_i;
   }
-  if constexpr (breaking || damping) dissipated += lane_sum(lost);
+  if constexpr (breaking || damping) dissipated[b] += lane_sum(lost);
 }
 
 void Bonds::add_forces(const SphereLanes* spheres, ForceLanes* forces, int b, double step,

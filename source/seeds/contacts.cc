@@ -1,23 +1,62 @@
 #include "seedflow/seeds/contacts.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "seedflow/base/binary.h"
 #include "seedflow/base/parameters.h"
 
 namespace seedflow {
 namespace {
 
-// Distance from the centre of mass that the body's rotation is about to a point.
-double rolling_radius(const SphereAddress& s, const Vec3& point) {
-  return norm(point - (s.body ? s.body->position.get(s.lane) : s.lanes->position.get(s.lane)));
+// Numbers 0, 1, ... for keys in the order in which they come.
+class Groups {
+ public:
+  int number(int a, int b) {
+    if (a != present) present = a, known.clear();
+    for (const auto& [key, number] : known)
+      if (key == b) return number;
+    known.push_back({b, count});
+    return count++;
+  }
+
+ private:
+  int present = -1, count = 0;
+  std::vector<std::pair<int, int>> known;
+};
+
+int seed_of(const Contacts::Surroundings& now, int sphere) {
+  const Numbering& n = now.cloud.numbering;
+  const int t = n.store_of_sphere(sphere);
+  return n.first_seed[t] + (sphere - n.first_sphere[t]) / now.stores[t].n_spheres();
 }
 
-Vec3 rolling_torque(const Vec3& rotation, double size, double inertia, double step) {
-  const double speed = norm(rotation);
-  if (!(speed > 0) || !(size > 0)) return {};
-  return (-std::min(size, step > 0 ? inertia * speed / step : size) / speed) * rotation;
+int material_of(const Contacts::Surroundings& now, int sphere) {
+  return now.stores[now.cloud.numbering.store_of_sphere(sphere)].material;
+}
+
+std::vector<WallCandidate> candidates_of(const Contacts::Surroundings& now, double skin) {
+  std::vector<WallCandidate> found;
+  const Numbering& n = now.cloud.numbering;
+  for (std::size_t t = 0; t < now.stores.size(); ++t)
+    for (int seed = n.first_seed[t]; seed < n.first_seed[t + 1]; ++seed) {
+      if (!now.own[seed]) continue;
+      const Ball& ball = now.cloud.ball[seed];
+      const int n_spheres = now.stores[t].n_spheres();
+      const int begin = n.first_sphere[t] + (seed - n.first_seed[t]) * n_spheres;
+      const std::size_t first_found = found.size();
+      for (std::size_t w = 0; w < now.walls.size(); ++w) {
+        if (!now.walls[w].active ||
+            !may_touch(now.walls[w], now.placements[w], ball.centre, ball.radius + skin))
+          continue;
+        for (int i = 0; i < n_spheres; ++i)
+          if (may_touch(now.walls[w], now.placements[w], now.cloud.position(begin + i),
+                        now.stores[t].model.radius[i] + skin))
+            found.push_back({begin + i, static_cast<int>(w)});
+      }
+      std::sort(found.begin() + first_found, found.end(), [](const WallCandidate& a, const WallCandidate& b) {
+        return a.sphere != b.sphere ? a.sphere < b.sphere : a.wall < b.wall;
+      });
+    }
+  return found;
 }
 
 }  // namespace
@@ -27,130 +66,119 @@ void ContactParameters::declare(Parameters& p) {
   p.number(
       "Skin", skin, "m", Range::non_negative(),
       "Contact lists hold pairs of sub-spheres with gaps below this. 0: a quarter of the smallest radius.");
+  p.flag("Normalise multiple contacts", normalise,
+         "Let n simultaneous sub-sphere contacts between the same two seeds, or a seed and a wall, act with "
+         "1/n of their stiffness and damping each.");
 }
 
 void Contacts::set_law(int a, int b, const ContactLaw& contact_law) {
-  const std::size_t n = std::max<std::size_t>(laws.size(), std::max(a, b) + 1);
-  laws.resize(n);
-  for (auto& row : laws) row.resize(n);
-  laws[a][b] = laws[b][a] = contact_law;
-}
-
-void Contacts::add_forces(const std::vector<SphereAddress>& spheres, const std::vector<Wall>& walls,
-                          double step, std::vector<Vec3>& wall_force) {
-  for (Pair& pair : pairs) {
-    const SphereAddress &a = spheres[pair.first], &b = spheres[pair.second];
-    const Vec3 d = a.lanes->position.get(a.lane) - b.lanes->position.get(b.lane);
-    const double reach2 = (a.radius + b.radius) * (a.radius + b.radius), distance2 = norm_square(d);
-    if (distance2 >= reach2) {
-      if (pair.touching) pair.spring = {}, pair.touching = false;
-      continue;
-    }
-    pair.touching = true;
-    const double distance = std::sqrt(distance2);
-    ContactState c;
-    c.normal = distance > 0 ? d / distance : Vec3{0, 0, 1};
-    c.overlap = a.radius + b.radius - distance;
-    c.reduced_radius = a.radius * b.radius / (a.radius + b.radius);
-    c.reduced_mass = a.mass * b.mass / (a.mass + b.mass);
-    const Vec3 arm_a = -(a.radius - 0.5 * c.overlap) * c.normal,
-               arm_b = (b.radius - 0.5 * c.overlap) * c.normal;
-    const Vec3 spin_a = a.lanes->angular_velocity.get(a.lane), spin_b = b.lanes->angular_velocity.get(b.lane);
-    c.velocity = a.lanes->velocity.get(a.lane) + cross(spin_a, arm_a) - b.lanes->velocity.get(b.lane) -
-                 cross(spin_b, arm_b);
-    const ContactLaw& own = law(a.material, b.material);
-    const ContactForce f = contact_force(own, c, step, pair.spring);
-    const Vec3 point = a.lanes->position.get(a.lane) + arm_a;
-    const double ra = rolling_radius(a, point), rb = rolling_radius(b, point);
-    const Vec3 rolling =
-        rolling_torque(spin_a - spin_b, own.rolling_friction * f.repulsion * 2 * ra * rb / (ra + rb),
-                       a.inertia * b.inertia / (a.inertia + b.inertia), step);
-    pair.normal_force = f.repulsion;
-    *a.in_contact = *b.in_contact = 1;
-    a.force->force.add(a.lane, f.force);
-    b.force->force.add(b.lane, -f.force);
-    a.force->torque.add(a.lane, cross(arm_a, f.force) + rolling);
-    b.force->torque.add(b.lane, -cross(arm_b, f.force) - rolling);
+  const std::size_t n = std::max<std::size_t>(law_number.size(), std::max(a, b) + 1);
+  law_number.resize(n);
+  for (auto& row : law_number) row.resize(n, -1);
+  if (law_number[a][b] < 0) {
+    law_number[a][b] = law_number[b][a] = static_cast<int>(laws.size());
+    laws.emplace_back();
   }
-  wall_force.assign(walls.size(), Vec3{});
-  for (Pair& pair : wall_pairs) {
-    const SphereAddress& a = spheres[pair.first];
-    const Wall& wall = walls[pair.second];
-    const Vec3 x = a.lanes->position.get(a.lane);
-    ContactState c;
-    c.overlap = a.radius - dot(x - wall.point, wall.normal);
-    if (c.overlap <= 0) {
-      if (pair.touching) pair.spring = {}, pair.touching = false;
-      continue;
+  laws[law_number[a][b]] = contact_law;
+}
+
+double Contacts::skin_for(const std::vector<SeedStore>& stores, const ContactParameters& parameters) {
+  if (parameters.skin > 0) return parameters.skin;
+  double smallest = 1e300;
+  for (const SeedStore& s : stores)
+    if (!s.seed.empty())
+      smallest = std::min(smallest, *std::min_element(s.model.radius.begin(), s.model.radius.end()));
+  return 0.25 * smallest;
+}
+
+void Contacts::search(const Surroundings& now, const ContactParameters& parameters,
+                      const ContactHistory& history) {
+  const Numbering& numbering = now.cloud.numbering;
+  listed_skin = skin_for(now.stores, parameters);
+  double largest = 0, reach = 0;
+  for (const SeedStore& s : now.stores)
+    for (double r : s.model.radius) largest = std::max(largest, r);
+  for (const ContactLaw& l : laws) reach = std::max(reach, l.reach(largest));
+  const std::vector<SpherePair> found = pairs_within(now.stores, now.cloud, listed_skin + reach, now.own);
+  const std::vector<WallCandidate> at_walls = candidates_of(now, listed_skin + reach);
+
+  std::vector<int> entry_of(numbering.n_spheres(), -1);
+  for (const SpherePair& pair : found) entry_of[pair.first] = entry_of[pair.second] = 0;
+  for (const WallCandidate& c : at_walls) entry_of[c.sphere] = 0;
+  all_bodies = ContactBodies{};
+  places.clear(), first_entry.clear();
+  int n_bodies = 0;
+  for (std::size_t t = 0; t < now.stores.size(); ++t) {
+    const SeedStore& s = now.stores[t];
+    const int n = s.n_spheres();
+    for (int slot = 0; slot < static_cast<int>(s.seed.size()); ++slot) {
+      if (slot % lane_width == 0) first_entry.push_back(static_cast<int>(places.size()));
+      const int before = n_bodies;
+      for (int i = 0; i < n; ++i) {
+        const int sphere = numbering.first_sphere[t] + slot * n + i;
+        if (entry_of[sphere] < 0) continue;
+        entry_of[sphere] = static_cast<int>(places.size());
+        places.push_back({i, slot % lane_width});
+        all_bodies.sphere.push_back(sphere);
+        if (!s.rigid || n_bodies == before) ++n_bodies;
+        all_bodies.body.push_back(n_bodies - 1);
+        ContactSphere& state = all_bodies.state.emplace_back();
+        state.motion[3] = s.model.radius[i];
+        state.motion[7] = s.rigid ? s.model.mass : s.model.sphere_mass[i];
+        const Vec3& inertia = s.model.inertia;
+        state.turning[3] = s.rigid ? std::min({inertia.x, inertia.y, inertia.z}) : s.model.sphere_inertia[i];
+        const Vec3 x = now.cloud.position(sphere);
+        state.place(x, {}, {}, {});
+      }
     }
-    pair.touching = true;
-    c.normal = wall.normal;
-    c.reduced_radius = a.radius;
-    c.reduced_mass = a.mass;
-    const Vec3 arm = -(a.radius - c.overlap) * c.normal, spin = a.lanes->angular_velocity.get(a.lane);
-    c.velocity = a.lanes->velocity.get(a.lane) + cross(spin, arm) - wall.velocity;
-    const ContactLaw& own = law(a.material, wall.material);
-    const ContactForce f = contact_force(own, c, step, pair.spring);
-    const Vec3 rolling = rolling_torque(spin, own.rolling_friction * f.repulsion * rolling_radius(a, x + arm),
-                                        a.inertia, step);
-    pair.normal_force = f.repulsion;
-    *a.in_contact = 1;
-    a.force->force.add(a.lane, f.force);
-    a.force->torque.add(a.lane, cross(arm, f.force) + rolling);
-    wall_force[pair.second] += f.force;
   }
+  first_entry.push_back(static_cast<int>(places.size()));
+  all_bodies.sum.resize(n_bodies);
+  list_pairs(now, parameters, history, found, entry_of);
+  list_walls(now, parameters, history, at_walls, entry_of);
 }
 
-void Contacts::renumber(const std::vector<int>& new_number) {
-  const auto move = [&](std::vector<Pair>& list, bool both) {
-    std::size_t kept = 0;
-    for (const Pair& old : list) {
-      Pair pair = old;
-      pair.first = new_number[old.first];
-      if (both) pair.second = new_number[old.second];
-      if (pair.first >= 0 && pair.second >= 0) list[kept++] = pair;
-    }
-    list.resize(kept);
-  };
-  move(pairs, true);
-  move(wall_pairs, false);
-  forget();
+void Contacts::list_pairs(const Surroundings& now, const ContactParameters& parameters,
+                          const ContactHistory& history, const std::vector<SpherePair>& found,
+                          const std::vector<int>& entry_of) {
+  std::vector<int> law(found.size()), group(parameters.normalise ? found.size() : 0);
+  Groups groups;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    law[k] = law_number[material_of(now, found[k].first)][material_of(now, found[k].second)];
+    if (parameters.normalise)
+      group[k] = groups.number(seed_of(now, found[k].first), seed_of(now, found[k].second));
+  }
+  pairs.set(found, law, group, entry_of, laws, all_bodies, history);
 }
 
-int Contacts::n_touching() const {
-  const auto touches = [](const Pair& p) { return p.touching; };
-  return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), touches) +
-                          std::count_if(wall_pairs.begin(), wall_pairs.end(), touches));
+void Contacts::list_walls(const Surroundings& now, const ContactParameters& parameters,
+                          const ContactHistory& history, const std::vector<WallCandidate>& found,
+                          const std::vector<int>& entry_of) {
+  const Numbering& numbering = now.cloud.numbering;
+  std::vector<int> law(found.size()), group(parameters.normalise ? found.size() : 0), block(found.size());
+  Groups groups;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const int t = numbering.store_of_sphere(found[k].sphere), seed = seed_of(now, found[k].sphere);
+    law[k] = law_number[now.stores[t].material][now.walls[found[k].wall].material];
+    block[k] = now.first_block[t] + (seed - numbering.first_seed[t]) / lane_width;
+    if (parameters.normalise) group[k] = groups.number(seed, found[k].wall);
+  }
+  on_walls.set(found, law, group, block, entry_of, laws, all_bodies, history);
 }
 
-double Contacts::largest_overlap(const std::vector<SphereAddress>& spheres, const std::vector<Wall>& walls,
-                                 Pair& where, bool& is_wall) const {
-  double largest = 0;
-  const auto look = [&](const Pair& pair, double overlap, bool wall) {
-    if (overlap > largest) largest = overlap, where = pair, is_wall = wall;
-  };
-  const auto place = [&](int i) { return spheres[i].lanes->position.get(spheres[i].lane); };
-  for (const Pair& p : pairs)
-    look(p, spheres[p.first].radius + spheres[p.second].radius - norm(place(p.first) - place(p.second)),
-         false);
-  for (const Pair& p : wall_pairs)
-    look(p, spheres[p.first].radius - dot(place(p.first) - walls[p.second].point, walls[p.second].normal),
-         true);
-  return largest;
+ContactHistory Contacts::history() const {
+  ContactHistory h;
+  pairs.collect(all_bodies, h.pairs);
+  on_walls.collect(all_bodies, h.on_wall);
+  h.sort();
+  return h;
 }
 
-void Contacts::save(std::ostream& out) const {
-  write_binary(out, pairs);
-  write_binary(out, wall_pairs);
-  write_binary(out, reach);
-  write_binary(out, travelled);
-}
-
-void Contacts::load(std::istream& in) {
-  read_binary(in, pairs);
-  read_binary(in, wall_pairs);
-  read_binary(in, reach);
-  read_binary(in, travelled);
+std::size_t Contacts::bytes() const {
+  return pairs.bytes() + on_walls.bytes() + places.capacity() * sizeof(Place) +
+         first_entry.capacity() * sizeof(int) +
+         all_bodies.state.capacity() * (sizeof(ContactSphere) + 2 * sizeof(int)) +
+         all_bodies.sum.capacity() * sizeof(ContactSum);
 }
 
 }  // namespace seedflow

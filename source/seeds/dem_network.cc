@@ -16,19 +16,20 @@ ContactNetwork Dem::contact_network() const {
     c.label_a = labels[seed], c.sphere_a = sphere - first[seed];
     return c;
   };
-  for (const Contacts::Pair& pair : contacts.sphere_pairs()) {
-    if (!pair.touching) continue;
+  const ContactHistory all = history();
+  for (const ContactHistory::Pair& pair : all.pairs) {
+    if (pair.memory[3] == 0) continue;
     NetworkContact c = begin(pair.first);
     const int other = seed_of_sphere(pair.second);
     c.label_b = labels[other], c.sphere_b = pair.second - first[other];
-    c.normal_force = pair.normal_force;
+    c.normal_force = pair.memory[3];
     network.push_back(c);
   }
-  for (const Contacts::Pair& pair : contacts.walls_pairs()) {
-    if (!pair.touching) continue;
-    NetworkContact c = begin(pair.first);
-    c.wall = pair.second;
-    c.normal_force = pair.normal_force;
+  for (const ContactHistory::OnWall& contact : all.on_wall) {
+    if (contact.memory[3] == 0) continue;
+    NetworkContact c = begin(contact.sphere);
+    c.wall = contact.wall, c.feature = contact.feature;
+    c.normal_force = contact.memory[3];
     network.push_back(c);
   }
   const auto key = [](const NetworkContact& c) {
@@ -37,6 +38,13 @@ ContactNetwork Dem::contact_network() const {
   std::sort(network.begin(), network.end(),
             [&](const NetworkContact& a, const NetworkContact& b) { return key(a) < key(b); });
   return network;
+}
+
+int Dem::n_contacts() const {
+  const ContactHistory all = history();
+  const auto acts = [](const auto& contact) { return contact.memory[3] != 0; };
+  return static_cast<int>(std::count_if(all.pairs.begin(), all.pairs.end(), acts) +
+                          std::count_if(all.on_wall.begin(), all.on_wall.end(), acts));
 }
 
 std::vector<int> Dem::coordination_numbers() const {

@@ -11,6 +11,7 @@ int Dem::add_seed(int seed_template, const Vec3& centre, const Quaternion& orien
                   const Vec3& spin) {
   if (seed_template < 0 || seed_template >= static_cast<int>(store.size()))
     throw InputError("There is no seed template number " + std::to_string(seed_template) + ".");
+  park();
   const int number = n_seeds();
   SeedStore& s = store[seed_template];
   const int slot = s.add(number, centre, normalized(orientation), velocity, spin);
@@ -18,7 +19,10 @@ int Dem::add_seed(int seed_template, const Vec3& centre, const Quaternion& orien
   slots.push_back({seed_template, slot});
   labels.push_back(next_label++);
   groups.push_back(0);
-  number_spheres();
+  first.push_back(first.back() + s.n_spheres());
+  sphere_radius.insert(sphere_radius.end(), s.model.radius.begin(), s.model.radius.end());
+  sphere_mass.insert(sphere_mass.end(), s.model.sphere_mass.begin(), s.model.sphere_mass.end());
+  load_step = 0;
   return number;
 }
 
@@ -30,45 +34,34 @@ void Dem::remove_seeds(const std::vector<int>& seeds) {
       throw InputError("There is no seed number " + std::to_string(seed) + " to remove.");
     gone[seed] = 1;
   }
+  park();
   std::vector<int> new_number(n_spheres(), -1);
+  std::vector<std::vector<int>> from(store.size());
   int n_kept = 0, sphere = 0;
   for (int seed = 0; seed < n_seeds(); ++seed) {
     if (gone[seed]) continue;
-    for (int i = first[seed]; i < first[seed + 1]; ++i) new_number[i] = sphere++;
+    for (int i = first[seed]; i < first[seed + 1]; ++i, ++sphere) {
+      new_number[i] = sphere;
+      sphere_radius[sphere] = sphere_radius[i], sphere_mass[sphere] = sphere_mass[i];
+    }
     slots[n_kept] = slots[seed];
     store[slots[seed].store].seed[slots[seed].slot] = n_kept;
-    labels[n_kept] = labels[seed];
-    groups[n_kept] = groups[seed];
+    from[slots[seed].store].push_back(slots[seed].slot);
+    labels[n_kept] = labels[seed], groups[n_kept] = groups[seed];
+    first[n_kept + 1] = sphere;
     ++n_kept;
   }
-  std::vector<std::vector<int>> from(store.size());
-  slots.resize(n_kept), labels.resize(n_kept), groups.resize(n_kept);
-  for (Slot& slot : slots) {
-    from[slot.store].push_back(slot.slot);
-    slot.slot = static_cast<int>(from[slot.store].size()) - 1;
-  }
+  slots.resize(n_kept), labels.resize(n_kept), groups.resize(n_kept), first.resize(n_kept + 1);
+  sphere_radius.resize(sphere), sphere_mass.resize(sphere);
   for (std::size_t t = 0; t < store.size(); ++t) {
-    store[t].rearrange(from[t]);
+    std::sort(from[t].begin(), from[t].end());
     store[t].load.clear();
-    store[t].rigid_load.clear();
+    store[t].rearrange(from[t]);
     bonds[t].rearrange(from[t]);
+    for (std::size_t slot = 0; slot < from[t].size(); ++slot) slots[store[t].seed[slot]].slot = slot;
   }
-  contacts.renumber(new_number);
-  number_spheres();
-}
-
-void Dem::number_spheres() {
-  first.assign(1, 0);
-  sphere_radius.clear(), sphere_mass.clear();
-  for (const Slot& slot : slots) {
-    const SeedTemplate& model = store[slot.store].model;
-    first.push_back(first.back() + model.n_spheres());
-    sphere_radius.insert(sphere_radius.end(), model.radius.begin(), model.radius.end());
-    sphere_mass.insert(sphere_mass.end(), model.sphere_mass.begin(), model.sphere_mass.end());
-  }
-  forces_known = false;
-  load_step = 0;
-  address.clear();
+  parked.renumber(new_number);
+  arranged_at = -1;
 }
 
 }  // namespace seedflow

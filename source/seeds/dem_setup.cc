@@ -9,6 +9,15 @@
 #include "seedflow/seeds/dem.h"
 
 namespace seedflow {
+namespace {
+
+std::string text_of(const Vec3& x) {
+  std::ostringstream text;
+  text << "(" << x.x << ", " << x.y << ", " << x.z << ") m";
+  return text.str();
+}
+
+}  // namespace
 
 void DemParameters::declare(Parameters& p) {
   const auto section = p.section("Seeds motion", "Discrete element method of the seeds.");
@@ -36,18 +45,14 @@ void Dem::set_contact(int a, int b, const ContactProperties& properties) {
 }
 
 int Dem::add_wall(const Wall& w) {
-  const double length = norm(w.normal);
-  if (!(length > 0))
-    throw InputError("Wall '" + w.name + "': the normal is zero. Give the direction into the domain.");
   if (w.material < 0 || w.material >= static_cast<int>(material.size()))
     throw InputError("Wall '" + w.name + "': there is no material number " + std::to_string(w.material) +
                      ".");
+  park();
   all_walls.push_back(w);
-  all_walls.back().normal /= length;
-  wall_active.push_back(1);
+  all_walls.back().check();
   wall_impulse.emplace_back();
   wall_force.emplace_back();
-  forces_known = false;
   return static_cast<int>(all_walls.size()) - 1;
 }
 
@@ -62,13 +67,24 @@ void Dem::add_box(const Vec3& a, const Vec3& b, int material_index) {
   set_domain(a, b);
 }
 
+Wall& Dem::wall(int w) {
+  park();
+  return all_walls.at(w);
+}
+
 void Dem::set_wall_velocity(int w, const Vec3& velocity) {
-  all_walls.at(w).velocity = velocity;
+  Wall& changed = wall(w);
+  const Placement present = placement(changed, now);
+  if (norm(present.shift) > 0 || norm(present.turn.v) > 0)
+    throw InputError("Wall '" + changed.name +
+                     "' has moved already: give it its whole motion before it starts (Wall::motion).");
+  changed.motion = WallMotion::constant(velocity);
+  changed.motion.displacement.start = now;
+  changed.check();
 }
 
 void Dem::set_wall_active(int w, bool active) {
-  wall_active.at(w) = active;
-  contacts.forget();
+  wall(w).active = active;
 }
 
 int Dem::add_template(const SeedTemplate& model, int material_index, bool rigid) {
@@ -128,12 +144,47 @@ std::vector<TimeStepLimit> Dem::time_step_limits() const {
   return limits;
 }
 
-void Dem::check() {
-  const auto text_of = [](const Vec3& x) {
-    std::ostringstream text;
-    text << "(" << x.x << ", " << x.y << ", " << x.z << ") m";
-    return text.str();
+void Dem::check_overlaps() const {
+  const SeedCloud cloud = [&] {
+    SeedCloud c(store);
+    for (std::size_t t = 0; t < store.size(); ++t)
+      for (std::size_t slot = 0; slot < store[t].seed.size(); ++slot)
+        c.take(store[t], static_cast<int>(t), static_cast<int>(slot));
+    return c;
+  }();
+  double overlap = 0;
+  int seed = -1, other = -1, wall = -1;
+  std::vector<int> users_number(n_spheres());
+  const std::vector<int> number = sphere_numbers();
+  for (std::size_t k = 0; k < number.size(); ++k) users_number[number[k]] = static_cast<int>(k);
+  const auto look = [&](double present, int sphere_a, int sphere_b, int w) {
+    if (present <= std::max(overlap, 1e-6 * sphere_radius[sphere_a])) return;
+    overlap = present, wall = w;
+    seed = seed_of_sphere(sphere_a), other = sphere_b < 0 ? -1 : seed_of_sphere(sphere_b);
   };
+  for (const SpherePair& p : pairs_within(store, cloud, 0, std::vector<char>(n_seeds(), 1))) {
+    const int a = users_number[p.first], b = users_number[p.second];
+    look(sphere_radius[a] + sphere_radius[b] - norm(cloud.position(p.first) - cloud.position(p.second)),
+         std::min(a, b), std::max(a, b), -1);
+  }
+  std::vector<WallPoint> points;
+  const std::vector<Placement> places = placements(now);
+  for (std::size_t w = 0; w < all_walls.size(); ++w)
+    for (int k = 0; k < n_spheres(); ++k) {
+      points.clear();
+      contacts_near(all_walls[w], places[w], cloud.position(number[k]), sphere_radius[k], points);
+      for (const WallPoint& p : points) look(sphere_radius[k] - p.distance, k, -1, static_cast<int>(w));
+    }
+  if (seed < 0) return;
+  std::ostringstream text;
+  text << "Seed " << seed << " at " << text_of(seed_state(seed).centre) << " starts " << overlap
+       << " m inside "
+       << (wall >= 0 ? "wall '" + all_walls[wall].name + "'" : "seed " + std::to_string(other))
+       << ". Move the seed.";
+  throw InputError(text.str());
+}
+
+void Dem::check() {
   for (int seed = 0; seed < n_seeds(); ++seed) {
     const Vec3 x = seed_state(seed).centre;
     if (bounded &&
@@ -142,22 +193,7 @@ void Dem::check() {
                        ", outside the domain from " + text_of(low) + " to " + text_of(high) +
                        ". Move the seed or enlarge the domain.");
   }
-  refresh_addresses();
-  Contacts trial = contacts;
-  trial.search(address, first, all_walls, wall_active, parameters.contacts);
-  Contacts::Pair pair{};
-  bool at_wall = false;
-  const double overlap = trial.largest_overlap(address, all_walls, pair, at_wall);
-  if (overlap > 1e-6 * (n_spheres() > 0 ? sphere_radius[pair.first] : 1)) {
-    const int seed = seed_of_sphere(pair.first);
-    std::ostringstream text;
-    text << "Seed " << seed << " at " << text_of(seed_state(seed).centre) << " starts " << overlap
-         << " m inside "
-         << (at_wall ? "wall '" + all_walls[pair.second].name + "'"
-                     : "seed " + std::to_string(seed_of_sphere(pair.second)))
-         << ". Move the seed.";
-    throw InputError(text.str());
-  }
+  check_overlaps();
   const std::vector<TimeStepLimit> limits = time_step_limits();
   const auto lowest =
       std::min_element(limits.begin(), limits.end(),

@@ -1,17 +1,12 @@
-// Looking at a Dem, saving and loading it.
+// Looking at a Dem.
 
 #include <algorithm>
 #include <cmath>
 
-#include "seedflow/base/binary.h"
 #include "seedflow/seeds/dem.h"
 
 namespace seedflow {
 namespace {
-
-Vec3 scaled(const Vec3& a, const Vec3& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
 
 // The rotation that carries the arms of the template best onto the present ones: quaternions of the
 // sub-spheres, weighted with mass, signs aligned with the first.
@@ -33,25 +28,28 @@ Vec3 solve(const Vec3& r0, const Vec3& r1, const Vec3& r2, const Vec3& b) {
 
 }  // namespace
 
-template <class Member>
-void Dem::gather(std::vector<Vec3>& out, Member member) const {
-  out.resize(n_spheres());
-  for (int seed = 0, k = 0; seed < n_seeds(); ++seed) {
-    const SeedStore& s = store[slots[seed].store];
-    const int lane = slots[seed].slot % lane_width;
-    const SphereLanes* own = s.block(slots[seed].slot / lane_width);
-    for (int i = 0; i < s.n_spheres(); ++i, ++k) out[k] = (own[i].*member).get(lane);
-  }
+template <class F>
+void Dem::for_each_seed(const F& f) const {
+  for (int seed = 0; seed < n_seeds(); ++seed) f(store[slots[seed].store], slots[seed].slot, first[seed]);
 }
 
 void Dem::positions(std::vector<Vec3>& out) const {
-  gather(out, &SphereLanes::position);
+  out.resize(n_spheres());
+  for_each_seed([&](const SeedStore& s, int slot, int begin) {
+    s.positions(slot, [&](int i, const Vec3& x) { out[begin + i] = x; });
+  });
 }
 void Dem::velocities(std::vector<Vec3>& out) const {
-  gather(out, &SphereLanes::velocity);
+  out.resize(n_spheres());
+  for_each_seed([&](const SeedStore& s, int slot, int begin) {
+    s.velocities(slot, [&](int i, const Vec3& v, const Vec3&) { out[begin + i] = v; });
+  });
 }
 void Dem::angular_velocities(std::vector<Vec3>& out) const {
-  gather(out, &SphereLanes::angular_velocity);
+  out.resize(n_spheres());
+  for_each_seed([&](const SeedStore& s, int slot, int begin) {
+    s.velocities(slot, [&](int i, const Vec3&, const Vec3& w) { out[begin + i] = w; });
+  });
 }
 
 void Dem::fluid_impulses(std::vector<Vec3>& out) const {
@@ -89,8 +87,7 @@ SeedState Dem::seed_state(int seed) const {
     r.velocity = body.velocity.get(lane);
     r.orientation = body.orientation.get(lane);
     r.angular_momentum = body.angular_momentum.get(lane);
-    const Vec3 inverse{1 / s.model.inertia.x, 1 / s.model.inertia.y, 1 / s.model.inertia.z};
-    r.spin = rotate(r.orientation, scaled(inverse, rotate_back(r.orientation, r.angular_momentum)));
+    r.spin = s.body_spin(slots[seed].slot);
     return r;
   }
   const SphereLanes* own = s.block(b);
@@ -170,72 +167,13 @@ int Dem::n_broken_bonds() const {
 std::size_t Dem::bytes() const {
   std::size_t sum = sphere_radius.capacity() * sizeof(double) + sphere_mass.capacity() * sizeof(double) +
                     slots.capacity() * sizeof(Slot) + first.capacity() * sizeof(int) +
-                    address.capacity() * sizeof(SphereAddress) + contacts.bytes();
+                    labels.capacity() * sizeof(long) + groups.capacity() * sizeof(int) +
+                    block_impulse.capacity() * sizeof(Vec3) + contacts.bytes() + travel.bytes() +
+                    merged.pairs.capacity() * sizeof(ContactHistory::Pair) +
+                    merged.on_wall.capacity() * sizeof(ContactHistory::OnWall);
   for (const SeedStore& s : store) sum += s.bytes();
   for (const Bonds& b : bonds) sum += b.bytes();
   return sum;
-}
-
-void Dem::save(std::ostream& out) const {
-  write_binary(out, lane_width);
-  write_binary(out, n_spheres());
-  write_binary(out, labels);
-  write_binary(out, groups);
-  write_binary(out, next_label);
-  write_binary(out, wall_active);
-  write_binary(out, now);
-  write_binary(out, substeps);
-  write_binary(out, largest_speed);
-  write_binary(out, forces_known);
-  write_binary(out, wall_impulse);
-  write_binary(out, wall_force);
-  for (const Wall& w : all_walls) write_binary(out, w.point), write_binary(out, w.velocity);
-  contacts.save(out);
-  for (std::size_t t = 0; t < store.size(); ++t) {
-    write_binary(out, store[t].sphere);
-    write_binary(out, store[t].force);
-    write_binary(out, store[t].load);
-    write_binary(out, store[t].body);
-    bonds[t].save(out);
-  }
-}
-
-void Dem::load(std::istream& in) {
-  int width = 0, spheres = 0;
-  read_binary(in, width);
-  if (width != lane_width)
-    throw RunError("The saved state was made by a build with " + std::to_string(width) +
-                   " numbers in a SIMD register, this build has " + std::to_string(lane_width) +
-                   ". Resume on a machine of the same kind, or start again.");
-  read_binary(in, spheres);
-  if (spheres != n_spheres())
-    throw RunError("The saved state holds " + std::to_string(spheres) + " sub-spheres, this set-up has " +
-                   std::to_string(n_spheres()) + ". Resume with the input the state was made with.");
-  read_binary(in, labels);
-  read_binary(in, groups);
-  read_binary(in, next_label);
-  read_binary(in, wall_active);
-  read_binary(in, now);
-  read_binary(in, substeps);
-  read_binary(in, largest_speed);
-  read_binary(in, forces_known);
-  read_binary(in, wall_impulse);
-  read_binary(in, wall_force);
-  if (wall_impulse.size() != all_walls.size())
-    throw RunError("The saved state has " + std::to_string(wall_impulse.size()) + " walls, this set-up has " +
-                   std::to_string(all_walls.size()) + ". Resume with the input the state was made with.");
-  for (Wall& w : all_walls) read_binary(in, w.point), read_binary(in, w.velocity);
-  contacts.load(in);
-  for (std::size_t t = 0; t < store.size(); ++t) {
-    read_binary(in, store[t].sphere);
-    read_binary(in, store[t].force);
-    read_binary(in, store[t].load);
-    read_binary(in, store[t].body);
-    bonds[t].load(in);
-  }
-  load_step = 0;
-  address.clear();
-  refresh_addresses();
 }
 
 }  // namespace seedflow

@@ -1,5 +1,8 @@
 #include "seedflow/seeds/motion.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace seedflow {
 namespace {
 
@@ -18,10 +21,10 @@ SEEDFLOW_INLINE void kick_loaded(SphereLanes& s, const ForceLanes& f, LoadLanes&
 }
 
 template <bool loaded>
-double move(SphereLanes* spheres, ForceLanes* forces, LoadLanes* loads, Lanes occupied,
-            const SeedTemplate& model, const MotionStep& step) {
+void move(SphereLanes* spheres, ForceLanes* forces, LoadLanes* loads, Lanes occupied,
+          const SeedTemplate& model, const MotionStep& step, FastestSpeeds& speeds) {
   const LaneVec3 gravity{step.gravity.x * occupied, step.gravity.y * occupied, step.gravity.z * occupied};
-  Lanes fastest = {};
+  Lanes fastest = speeds.velocity;
   const int n = model.n_spheres();
   for (int i = 0; i < n; ++i) {
     SphereLanes& s = spheres[i];
@@ -41,17 +44,25 @@ double move(SphereLanes* spheres, ForceLanes* forces, LoadLanes* loads, Lanes oc
     }
     fastest = lane_max(fastest, dot(s.velocity, s.velocity));
   }
-  double result = 0;
-  for (int lane = 0; lane < lane_width; ++lane) result = fastest[lane] > result ? fastest[lane] : result;
-  return result;
+  speeds.velocity = fastest;
 }
 
 }  // namespace
 
-double move_bonded(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step) {
+void move_bonded(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step,
+                 FastestSpeeds& fastest) {
   LoadLanes* loads = store.loads(b);
-  return loads ? move<true>(store.block(b), forces, loads, store.occupied[b], store.model, step)
-               : move<false>(store.block(b), forces, nullptr, store.occupied[b], store.model, step);
+  if (loads)
+    move<true>(store.block(b), forces, loads, store.occupied[b], store.model, step, fastest);
+  else
+    move<false>(store.block(b), forces, nullptr, store.occupied[b], store.model, step, fastest);
+}
+
+double FastestSpeeds::bound() const {
+  double v = 0, w = 0;
+  for (int lane = 0; lane < lane_width; ++lane)
+    v = std::max(v, velocity[lane]), w = std::max(w, turning[lane]);
+  return std::sqrt(v) + std::sqrt(w);
 }
 
 }  // namespace seedflow

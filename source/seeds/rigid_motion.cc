@@ -4,25 +4,6 @@
 namespace seedflow {
 namespace {
 
-struct Axes {
-  LaneVec3 x, y, z;  ///< the template's axes in the lab frame
-};
-
-Axes axes_of(const LaneQuaternion& q) {
-  const LaneVec3 x{broadcast(1.0), Lanes{}, Lanes{}}, y{Lanes{}, broadcast(1.0), Lanes{}},
-      z{Lanes{}, Lanes{}, broadcast(1.0)};
-  return {rotate(q, x), rotate(q, y), rotate(q, z)};
-}
-
-SEEDFLOW_INLINE LaneVec3 along(const Axes& a, const Vec3& r) {
-  return r.x * a.x + r.y * a.y + r.z * a.z;
-}
-
-LaneVec3 spin_of(const BodyLanes& body, const Axes& a, const Vec3& inertia) {
-  const LaneVec3& l = body.angular_momentum;
-  return (dot(l, a.x) / inertia.x) * a.x + (dot(l, a.y) / inertia.y) * a.y + (dot(l, a.z) / inertia.z) * a.z;
-}
-
 // One factor of the splitting: for the time t the body turns about its own axis c alone, omega_c = L_c / I_c.
 void turn_about(LaneQuaternion& q, LaneVec3& momentum, int c, double t, double inertia) {
   Lanes* const l[3] = {&momentum.x, &momentum.y, &momentum.z};
@@ -51,60 +32,50 @@ LaneQuaternion freely_turned(const BodyLanes& body, const Vec3& inertia, double 
 
 }  // namespace
 
-void place_spheres(SeedStore& store, int b) {
-  const BodyLanes& body = store.body[b];
-  const Axes a = axes_of(body.orientation);
-  const LaneVec3 spin = spin_of(body, a, store.model.inertia);
-  SphereLanes* const spheres = store.block(b);
-  for (int i = 0; i < store.n_spheres(); ++i) {
-    const LaneVec3 arm = along(a, store.model.position[i]);
-    spheres[i].position = body.position + arm;
-    spheres[i].velocity = body.velocity + cross(spin, arm);
-    spheres[i].angular_velocity = spin;
-    spheres[i].orientation = body.orientation;
-  }
+RigidFrame::RigidFrame(const BodyLanes& body, const Vec3& inertia) {
+  const LaneQuaternion& q = body.orientation;
+  x = rotate(q, broadcast(Vec3{1, 0, 0})), y = rotate(q, broadcast(Vec3{0, 1, 0})), z = cross(x, y);
+  const LaneVec3& l = body.angular_momentum;
+  spin = ((1 / inertia.x) * dot(l, x)) * x + ((1 / inertia.y) * dot(l, y)) * y +
+         ((1 / inertia.z) * dot(l, z)) * z;
 }
 
-double move_rigid(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step) {
+void move_rigid(SeedStore& store, int b, const ForceLanes& contacts, const MotionStep& step,
+                FastestSpeeds& fastest) {
   const SeedTemplate& model = store.model;
+  const Vec3& inertia = model.inertia;
   BodyLanes& body = store.body[b];
-  SphereLanes* const spheres = store.block(b);
-  const Axes a = axes_of(body.orientation);
-  LaneVec3 force = (store.occupied[b] * model.mass) * broadcast(step.gravity), torque;
-  for (int i = 0; forces && i < store.n_spheres(); ++i) {
-    force += forces[i].force;
-    torque += forces[i].torque + cross(along(a, model.position[i]), forces[i].force);
-    if (step.drift > 0) forces[i] = ForceLanes{};
-  }
+  const LaneVec3 force = contacts.force + (store.occupied[b] * model.mass) * broadcast(step.gravity);
   if (store.load.empty()) {
     body.velocity += (step.kick / model.mass) * force;
-    body.angular_momentum += step.kick * torque;
+    body.angular_momentum += step.kick * contacts.torque;
   } else {
-    const Vec3& inertia = model.inertia;
-    const LaneVec3 spin = spin_of(body, a, inertia);
+    const LaneVec3 spin = RigidFrame(body, inertia).spin;
     for (int lane = 0; lane < lane_width; ++lane) {
       if (store.occupied[b][lane] == 0.0) continue;
       const Quaternion q = body.orientation.get(lane);
       Vec3 v = body.velocity.get(lane), w = spin.get(lane);
-      kick_reduced(store.rigid_load[b * lane_width + lane], q, force.get(lane), torque.get(lane), step.kick,
-                   step.half, v, w);
+      kick_reduced(store.rigid_load[b * lane_width + lane], q, force.get(lane), contacts.torque.get(lane),
+                   step.kick, step.half, v, w);
       const Vec3 change = rotate_back(q, w - spin.get(lane));
       body.velocity.set(lane, v);
       body.angular_momentum.add(
           lane, rotate(q, {inertia.x * change.x, inertia.y * change.y, inertia.z * change.z}));
     }
   }
-  if (step.drift > 0) {
-    body.position += step.drift * body.velocity;
-    body.orientation = freely_turned(body, model.inertia, step.drift);
+  fastest.velocity = lane_max(fastest.velocity, dot(body.velocity, body.velocity));
+  if (step.drift > 0) body.position += step.drift * body.velocity;
+  if (model.n_spheres() == 1) {
+    // A sphere turns uniformly, whatever the axis.
+    if (step.drift > 0)
+      body.orientation = turned(body.orientation, (step.drift / inertia.x) * body.angular_momentum);
+    return;
   }
-  place_spheres(store, b);
-  Lanes fastest = {};
-  for (int i = 0; i < store.n_spheres(); ++i)
-    fastest = lane_max(fastest, dot(spheres[i].velocity, spheres[i].velocity));
-  double result = 0;
-  for (int lane = 0; lane < lane_width; ++lane) result = fastest[lane] > result ? fastest[lane] : result;
-  return result;
+  if (step.drift > 0) body.orientation = freely_turned(body, inertia, step.drift);
+  // |spin| <= |L| / least moment
+  const double arm = model.bounding_radius / inertia.x;
+  fastest.turning =
+      lane_max(fastest.turning, (arm * arm) * dot(body.angular_momentum, body.angular_momentum));
 }
 
 }  // namespace seedflow

@@ -9,6 +9,7 @@
 namespace seedflow {
 
 class Parameters;
+class SeedShare;
 
 /// Memory that is needed after the present block: its spheres and, if it has its own, its forces.
 struct NextBlock {
@@ -66,7 +67,7 @@ class Bonds {
   /// Elastic energy of each lane [J].
   Lanes energy(const SphereLanes* spheres, int b) const;
   /// Energy taken out by bond damping and by breaking, all blocks, occupied lanes [J].
-  double dissipated_energy() const { return dissipated; }
+  double dissipated_energy() const;
   /// Broken bonds of the seed in this lane.
   int n_broken(int b, int lane) const;
   bool is_broken(int b, int bond, int lane) const;
@@ -74,6 +75,9 @@ class Bonds {
   /// Largest angular frequency of the undamped bonded seed [rad/s]; velocity Verlet is stable up to
   /// 2/omega_max.
   double largest_frequency(const SeedTemplate& model) const;
+
+  /// Brings what other ranks know of their blocks of store t.
+  void gather(const SeedShare& share, int t);
 
   std::size_t bytes() const;
   void save(std::ostream& out) const;
@@ -112,7 +116,8 @@ class Bonds {
   std::vector<Lanes> intact;         ///< [block][bond] 1 or 0; empty when bonds cannot break
   std::vector<History> history;      ///< [block][bond]; incremental form only
   int n_spheres = 0;
-  double dissipated = 0;
+  std::vector<double> dissipated;  ///< [block]
+  double dissipated_before = 0;    ///< until the last rearrange()
 };
 
 }  // namespace seedflow

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <iosfwd>
-#include <string>
 #include <vector>
 
-#include "seedflow/seeds/contact_law.h"
-#include "seedflow/seeds/seed_store.h"
-#include "seedflow/seeds/walls.h"
+#include "seedflow/seeds/contact_list.h"
+#include "seedflow/seeds/wall_list.h"
 
 namespace seedflow {
 
@@ -15,78 +12,90 @@ class Parameters;
 struct ContactParameters {
   double skin =
       0;  ///< lists hold pairs with gaps below the skin [m]; 0: a quarter of the smallest sub-sphere's radius
+  bool normalise = false;  ///< n contacts between the same two seeds act as one
 
   void declare(Parameters& parameters);
 };
 
-/// Where one sub-sphere stands, and what its contacts need to know about it.
-struct SphereAddress {
-  const SphereLanes* lanes = nullptr;
-  ForceLanes* force = nullptr;
-  char* in_contact = nullptr;       ///< of its block
-  const BodyLanes* body = nullptr;  ///< of a rigid seed, else none
-  int lane = 0, seed = 0, material = 0;
-  double radius = 0;   ///< [m]
-  double mass = 0;     ///< m in m*: the seed's if rigid, else the sub-sphere's [kg]
-  double inertia = 0;  ///< least moment of inertia of the body it belongs to [kg m2]
-};
-
-/// Contacts between sub-spheres of different seeds and between sub-spheres and plane walls.
+/// Contacts between sub-spheres of different seeds and between sub-spheres and walls, of the seeds of this
+/// rank (of a pair across ranks both sides are computed by both).
 ///
-/// Lists: seeds whose bounding spheres come closer than the skin (linked cells of the size of a seed), and of
-/// these the pairs of sub-spheres with a gap below the skin. The lists stay valid until twice the longest way
-/// any sub-sphere can have gone (sum of largest speed x step) reaches the skin. Every pair keeps its
-/// tangential spring when lists are made anew; pairs are sorted by their sub-sphere numbers, so the sums do
-/// not depend on the search.
-///
-/// Rolling friction is a torque of constant size mu_r F_n R against the rotation (against the relative
-/// rotation of two sub-spheres), limited to what stops it within the step. R is the distance from the centre
-/// of mass (of the seed if rigid, else of the sub-sphere) to the contact.
+/// The lists hold what comes closer than the skin. They are a matter of speed alone: forces depend on what
+/// touches, and are summed in the order of the sub-spheres' numbers, so neither skin nor the instants of the
+/// searches nor the number of ranks changes a single bit of the motion.
 class Contacts {
  public:
-  /// One pair with a gap below the skin; `second` is a sub-sphere or, in the list of walls, a wall.
-  struct Pair {
-    int first, second;
-    Vec3 spring;  ///< tangential displacement [m]; zero when apart
-    bool touching = false;
-    double normal_force = 0;  ///< repulsion at the last substep [N]
-  };
-
+  /// Law of a pair of materials; both orders.
   void set_law(int material_a, int material_b, const ContactLaw& law);
-  const ContactLaw& law(int material_a, int material_b) const { return laws[material_a][material_b]; }
+  const ContactLaw& law(int material_a, int material_b) const {
+    return laws[law_number[material_a][material_b]];
+  }
 
-  /// Makes the lists anew from present positions. `first` [seed] numbers the sub-spheres.
-  void search(const std::vector<SphereAddress>& spheres, const std::vector<int>& first,
-              const std::vector<Wall>& walls, const std::vector<char>& wall_active,
-              const ContactParameters& parameters);
-  /// Adds `distance` [m] to what any sub-sphere may have moved; true when the lists are to be made anew.
-  bool moved(double distance) { return 2 * (travelled += distance) >= reach; }
-  bool is_listed() const { return reach > 0; }
-  void forget() { reach = 0; }
+  /// Where an entry stands in its store.
+  struct Place {
+    int sphere, lane;  ///< sub-sphere of the template, lane of the block
+  };
+  /// What belongs to one search.
+  struct Surroundings {
+    const std::vector<SeedStore>& stores;
+    const SeedCloud& cloud;
+    const std::vector<char>& own;         ///< [seed, see Numbering]
+    const std::vector<int>& first_block;  ///< [store] blocks numbered through
+    const std::vector<Wall>& walls;
+    const std::vector<Placement>& placements;
+  };
+  /// Makes the lists anew; contacts in `history` keep what they remember. All entries are to be placed.
+  void search(const Surroundings& now, const ContactParameters& parameters, const ContactHistory& history);
+  bool is_listed() const { return listed_skin > 0; }
+  void forget() { listed_skin = 0; }
+  double skin() const { return listed_skin; }
+  /// The skin that search() will use [m].
+  static double skin_for(const std::vector<SeedStore>& stores, const ContactParameters& parameters);
 
-  /// Adds the forces of all contacts; wall_force [wall] receives the sum of the forces on the seeds by each
-  /// wall [N].
-  void add_forces(const std::vector<SphereAddress>& spheres, const std::vector<Wall>& walls, double step,
-                  std::vector<Vec3>& wall_force);
+  // Between the stores' blocks (numbered through) and the entries.
+  /// Hands the sums of a block's bodies over and sets them to zero.
+  void take_forces(int block, ForceLanes* forces);    ///< bonded: added, per sub-sphere
+  void take_forces(int block, ForceLanes& on_seeds);  ///< rigid: added, per seed
+  /// Takes the state of a block's sub-spheres that stand in the lists.
+  void place(int block, const SeedStore& store, int b);
 
-  int n_touching() const;
-  const std::vector<Pair>& sphere_pairs() const { return pairs; }
-  const std::vector<Pair>& walls_pairs() const { return wall_pairs; }
-  /// Sub-sphere i is called new_number[i] from now on; pairs of those with -1 are dropped.
-  void renumber(const std::vector<int>& new_number);
-  /// Largest overlap of a sub-sphere with a wall or with another seed among the listed pairs.
-  double largest_overlap(const std::vector<SphereAddress>& spheres, const std::vector<Wall>& walls,
-                         Pair& where, bool& is_wall) const;
+  /// Entries of a block (numbered through): [entries(b), entries(b + 1)).
+  int entries(int block) const { return first_entry[block]; }
+  const Place& place(int entry) const { return places[entry]; }
+  ContactBodies& bodies() { return all_bodies; }
+  const ContactBodies& bodies() const { return all_bodies; }
+  const PairList& pair_list() const { return pairs; }
 
-  std::size_t bytes() const { return (pairs.capacity() + wall_pairs.capacity()) * sizeof(Pair); }
-  void save(std::ostream& out) const;
-  void load(std::istream& in);
+  /// Adds the forces of all contacts to the sums of the bodies.
+  void add_forces(const std::vector<Wall>& walls, const std::vector<Placement>& placements, double step) {
+    pairs.add_forces(laws, all_bodies, step);
+    on_walls.add_forces(laws, walls, placements, all_bodies, step);
+  }
+  void add_wall_forces(double factor, int n_walls, std::vector<Vec3>& sum) const {
+    on_walls.add_wall_forces(factor, n_walls, sum);
+  }
+  const WallFault& fault() const { return on_walls.fault(); }
+
+  /// What all listed contacts remember, sorted.
+  ContactHistory history() const;
+  std::size_t bytes() const;
 
  private:
-  std::vector<std::vector<ContactLaw>> laws;  ///< [material][material]
-  std::vector<Pair> pairs, wall_pairs;
-  double reach = 0;      ///< skin the lists were made with [m]; 0: no lists
-  double travelled = 0;  ///< since the lists were made [m]
+  void list_pairs(const Surroundings& now, const ContactParameters& parameters, const ContactHistory& history,
+                  const std::vector<SpherePair>& found, const std::vector<int>& entry_of);
+  void list_walls(const Surroundings& now, const ContactParameters& parameters, const ContactHistory& history,
+                  const std::vector<WallCandidate>& found, const std::vector<int>& entry_of);
+  void place_rigid(int block, const SeedStore& store, int b);
+  void place_plain_spheres(int block, const SeedStore& store, int b);
+
+  std::vector<std::vector<int>> law_number;  ///< [material][material]
+  std::vector<ContactLaw> laws;
+  ContactBodies all_bodies;
+  std::vector<Place> places;     ///< [entry]
+  std::vector<int> first_entry;  ///< [block]
+  PairList pairs;
+  WallList on_walls;
+  double listed_skin = 0;  ///< the lists were made with [m]; 0: no lists
 };
 
 }  // namespace seedflow

@@ -12,8 +12,10 @@
 #include "seedflow/seeds/contacts.h"
 #include "seedflow/seeds/material.h"
 #include "seedflow/seeds/motion.h"
+#include "seedflow/seeds/seed_share.h"
 #include "seedflow/seeds/seed_store.h"
 #include "seedflow/seeds/time_step.h"
+#include "seedflow/seeds/travel.h"
 #include "seedflow/seeds/walls.h"
 
 namespace seedflow {
@@ -68,11 +70,15 @@ struct DemEnergies {
 ///
 /// Sub-spheres are numbered seed by seed in the order in which seeds were added, whatever their template.
 /// Contacts act between different seeds and with walls; sub-spheres of one seed know each other through bonds
-/// only, so fragments of a broken seed pass through each other. Every MPI rank holds and computes all seeds;
-/// the arithmetic does not depend on the number of ranks.
+/// only, so fragments of a broken seed pass through each other.
+///
+/// In memory the seeds stand along a space-filling curve, and the ranks of the communicator compute
+/// contiguous parts of it. Between calls every rank remembers everything, and calls are collective. Neither
+/// the number of ranks nor the instants of the neighbour searches change a bit of the result.
 ///
 /// Errors: InputError from add_* and check(): a seed outside the domain or inside a wall, a time step above
-/// its limit. RunError from advance(): NaN, or a seed's centre outside the domain: which seed, where, when.
+/// its limit. RunError from advance(): NaN, a seed's centre outside the domain, a sub-sphere's centre behind
+/// a wall: which seed, where, when.
 class Dem {
  public:
   explicit Dem(const DemParameters& parameters = {}, MPI_Comm communicator = MPI_COMM_SELF);
@@ -139,9 +145,13 @@ class Dem {
   int n_broken_bonds() const;
   int n_broken_bonds(int seed) const;
   const std::vector<Wall>& walls() const { return all_walls; }
-  Wall& wall(int w) { return all_walls.at(w); }
+  /// To change a wall between two calls of advance().
+  Wall& wall(int w);
   const std::vector<Material>& materials() const { return material; }
-  int n_contacts() const { return contacts.n_touching(); }
+  int n_contacts() const;
+  long n_searches() const { return searches; }
+  /// Cost of the busiest rank over the mean, by the numbers of sub-spheres and contacts.
+  double imbalance() const { return share.imbalance(); }
   /// All touching pairs after the last advance().
   ContactNetwork contact_network() const;
   /// Number of other seeds and walls that each seed touches.
@@ -157,24 +167,42 @@ class Dem {
   struct Slot {
     int store, slot;
   };
-  SphereLanes& lanes_of(int seed, int sphere, int& lane);
-  const SphereLanes& lanes_of(int seed, int sphere, int& lane) const;
-  template <class Member>
-  void gather(std::vector<Vec3>& out, Member member) const;
-  void number_spheres();
-  void refresh_addresses();
-  void sum_contacts(double step);
-  void sum_bonds(double step);
-  /// Adds the forces of the bonds (unless bond_step is 0) and moves the seeds.
-  void move(double bond_step, const MotionStep& motion);
+  enum class Stage { first, middle, last };  ///< of the substeps of advance()
+
+  template <class F>
+  void for_each_seed(const F& f) const;
+
+  void check_overlaps() const;
+  // dem.cc
+  void evaluate_forces();
+  void contact_forces(double time, double step);
+  void move(Stage stage, const MotionStep& motion, double bond_step);
+  void move_block(Stage stage, const MotionStep& motion, double bond_step, int t, int b);
+  // dem_loads.cc
+  void relax_factors(double step);
   void begin_impulses(double step);
   void end_impulses(double duration);
-  void check_state() const;
-  void check_seed(const SeedStore& s, int slot, const Vec3& centre, const Vec3& velocity) const;
-  void relax_factors(double step);
+  // dem_lists.cc: contact lists
+  void make_lists(double time);
+  std::vector<Placement> placements(double time) const;
+  double wall_speed(double time) const;
+  std::vector<int> sphere_numbers() const;
+  ContactHistory history() const;
+  void park();
+  // dem_order.cc: order in memory, ranks
+  void number();
+  void arrange();
+  void divide();
+  std::vector<Vec3> centres() const;
+  bool arrangement_is_due() const;
+  void complete(double time, bool with_forces);
+  void complete_positions();
+  void check_walls(double time) const;
+  void check_state(double time) const;
+  void check_seed(int seed, const Vec3& centre, const Vec3& velocity, double time) const;
+  std::string place_of(int seed) const;
 
   DemParameters parameters;
-  MPI_Comm communicator;
   std::vector<Material> material;
   std::vector<SeedStore> store;
   std::vector<Bonds> bonds;   ///< [template]
@@ -185,18 +213,29 @@ class Dem {
   std::vector<int> groups;   ///< [seed]
   long next_label = 0;
   std::vector<Wall> all_walls;
-  std::vector<char> wall_active;
   std::vector<Vec3> wall_impulse;
-  std::vector<Vec3> wall_force;        ///< on the seeds by each wall at the present positions [N]
-  std::vector<SphereAddress> address;  ///< [sub-sphere]; empty after a change of the stores
-  std::vector<ForceLanes> scratch;     ///< one block
+  std::vector<Vec3> wall_force;     ///< on the seeds by each wall at the end of advance() [N]
+  std::vector<Vec3> block_impulse;  ///< [block * n_walls + wall] since advance() began [N s]
+  std::vector<ForceLanes> scratch;  ///< one block
   Contacts contacts;
+  Travel travel;
+  ContactHistory parked;  ///< while there are no lists; by the user's numbers of sub-spheres
+  ContactHistory merged;  ///< of all ranks, at the end of advance(); by numbers in memory
+  SeedShare share;
+  GhostExchange ghosts;
+  Numbering numbering;
+  std::vector<int> first_block;  ///< [store] blocks numbered through
   Vec3 low, high;
-  bool bounded = false, loaded = false, forces_known = false;
+  Vec3 lowest, highest;  ///< box around all seeds when the lists were made
+  bool bounded = false, forces_known = false, divided = false;
   double now = 0;
   double load_step = 0;      ///< substep the relaxation factors were computed for [s]
-  double largest_speed = 0;  ///< of any sub-sphere at the last kick [m/s]
-  long substeps = 0;
+  double largest_speed = 0;  ///< of any sub-sphere at the last kick, all ranks [m/s]
+  FastestSpeeds fastest;     ///< of this rank's seeds
+  long substeps = 0, searches = 0;
+  long arranged_at = -1;  ///< substep of the last sorting; -1: not sorted
+  int arranged_seeds = 0;
+  long seeds_at_start = -1;  ///< seeds added before the first advance(); -1: not begun
 };
 
 }  // namespace seedflow

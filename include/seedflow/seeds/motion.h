@@ -12,14 +12,27 @@ struct MotionStep {
   Vec3 gravity;       ///< [m/s2]
 };
 
+/// Largest speeds met so far, by lane.
+struct FastestSpeeds {
+  Lanes velocity = {};  ///< square of that of a bonded sub-sphere or a rigid seed's centre [m2/s2]
+  Lanes turning = {};   ///< square of a rigid seed's spin times the arm of its outermost sub-sphere [m2/s2]
+  /// No sub-sphere is faster [m/s].
+  double bound() const;
+};
+
 /// Moves every sub-sphere of block b by itself under `forces`. After a drift forces and torques are set to
-/// zero for the next summation. Returns the largest square of a sub-sphere's speed [m2/s2].
-double move_bonded(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step);
+/// zero for the next summation.
+void move_bonded(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step, FastestSpeeds& fastest);
 
-/// Moves the seeds of block b as rigid bodies and carries their sub-spheres along. `forces` may be none.
-double move_rigid(SeedStore& store, int b, ForceLanes* forces, const MotionStep& step);
+/// Moves the seeds of block b as rigid bodies under the forces and torques of contacts on them.
+void move_rigid(SeedStore& store, int b, const ForceLanes& contacts, const MotionStep& step,
+                FastestSpeeds& fastest);
 
-/// Sets the sub-spheres of block b from the bodies.
-void place_spheres(SeedStore& store, int b);
+/// The axes of the template in the lab frame and the spins of block b's rigid seeds.
+struct RigidFrame {
+  LaneVec3 x, y, z;
+  LaneVec3 spin;  ///< [rad/s]
+  RigidFrame(const BodyLanes& body, const Vec3& inertia);
+};
 
 }  // namespace seedflow

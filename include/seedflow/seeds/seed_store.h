@@ -15,9 +15,8 @@ struct SphereLanes {
   LaneVec3 angular_velocity;   ///< [rad/s]
 };
 
-/// What bonds and contacts do to one sub-sphere of lane_width seeds. Apart from the state, because only
-/// blocks in contact need it from one substep to the next; the others sum their bonds in one scratch block
-/// that stays in the cache.
+/// What bonds and contacts do to one sub-sphere, or one rigid body, of lane_width seeds. Kept only from one
+/// advance() to the next; in between forces are summed in one scratch block that stays in the cache.
 struct ForceLanes {
   LaneVec3 force;   ///< [N]
   LaneVec3 torque;  ///< [N m]
@@ -65,20 +64,18 @@ struct RigidLoad {
 /// All seeds of one template. Lane = seed: lane_width seeds make a block, and the sub-spheres of a block
 /// stand one after the other, [block][sub-sphere][component][lane], so that one bond of the template is the
 /// same pair of addresses for all seeds of the block. Empty lanes of the last block rest in the template's
-/// reference position.
+/// reference position. Rigid seeds store bodies only; where their sub-spheres are is computed when asked.
 struct SeedStore {
   SeedTemplate model;
   int material = 0;
   bool rigid = false;
-  std::vector<int> seed;            ///< [slot] global seed number; slot = block * lane_width + lane
-  std::vector<Lanes> occupied;      ///< [block] 1 where the lane holds a seed, else 0
-  std::vector<SphereLanes> sphere;  ///< [block * n_spheres + sub-sphere]
-  std::vector<ForceLanes>
-      force;                     ///< as sphere; zero but for blocks in contact and between calls of advance()
-  std::vector<char> in_contact;  ///< [block] whether contacts have added to force
-  std::vector<LoadLanes> load;   ///< as sphere; empty while nothing acts from outside
-  std::vector<BodyLanes> body;   ///< [block], rigid seeds only
-
+  std::vector<int> seed;               ///< [slot] the user's seed number; slot = block * lane_width + lane
+  std::vector<Lanes> occupied;         ///< [block] 1 where the lane holds a seed, else 0
+  std::vector<SphereLanes> sphere;     ///< [block * n_spheres + sub-sphere], bonded seeds only
+  std::vector<ForceLanes> force;       ///< as sphere; at the end of advance()
+  std::vector<BodyLanes> body;         ///< [block], rigid seeds only
+  std::vector<ForceLanes> body_force;  ///< as body; at the end of advance()
+  std::vector<LoadLanes> load;  ///< [block * n_spheres + sub-sphere]; empty while nothing acts from outside
   std::vector<RigidLoad> rigid_load;  ///< [slot], rigid seeds under outside loads only
 
   int n_blocks() const { return static_cast<int>(occupied.size()); }
@@ -89,6 +86,38 @@ struct SeedStore {
   LoadLanes* loads(int b) {
     return load.empty() ? nullptr : load.data() + static_cast<std::size_t>(b) * n_spheres();
   }
+
+  /// Calls f(sub-sphere, position) for all sub-spheres of the seed in this slot.
+  template <class F>
+  void positions(int slot, const F& f) const {
+    const int lane = slot % lane_width, b = slot / lane_width;
+    if (!rigid) {
+      for (int i = 0; i < n_spheres(); ++i) f(i, block(b)[i].position.get(lane));
+      return;
+    }
+    const Vec3 centre = body[b].position.get(lane);
+    const Quaternion q = body[b].orientation.get(lane);
+    const Vec3 x = rotate(q, {1, 0, 0}), y = rotate(q, {0, 1, 0}), z = rotate(q, {0, 0, 1});
+    for (int i = 0; i < n_spheres(); ++i) {
+      const Vec3& r = model.position[i];
+      f(i, centre + (r.x * x + r.y * y + r.z * z));
+    }
+  }
+  /// Calls f(sub-sphere, velocity, angular velocity) for all sub-spheres of the seed in this slot.
+  template <class F>
+  void velocities(int slot, const F& f) const {
+    const int lane = slot % lane_width, b = slot / lane_width;
+    if (!rigid) {
+      for (int i = 0; i < n_spheres(); ++i)
+        f(i, block(b)[i].velocity.get(lane), block(b)[i].angular_velocity.get(lane));
+      return;
+    }
+    const Vec3 velocity = body[b].velocity.get(lane), spin = body_spin(slot);
+    const Quaternion q = body[b].orientation.get(lane);
+    for (int i = 0; i < n_spheres(); ++i) f(i, velocity + cross(spin, rotate(q, model.position[i])), spin);
+  }
+  /// Angular velocity of a rigid seed [rad/s].
+  Vec3 body_spin(int slot) const;
 
   /// Puts a seed into the next free lane and returns its slot.
   int add(int seed_number, const Vec3& centre, const Quaternion& orientation, const Vec3& velocity,

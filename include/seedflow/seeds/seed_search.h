@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "seedflow/seeds/numbering.h"
+
+namespace seedflow {
+
+struct Ball {
+  Vec3 centre;        ///< [m]
+  double radius = 0;  ///< [m]
+};
+
+/// Where all sub-spheres are at the instant of a search, by their numbers, and a ball around every seed.
+struct SeedCloud {
+  Numbering numbering;
+  std::vector<double> x, y, z;  ///< [sub-sphere], and a few zeros behind [m]
+  std::vector<Ball> ball;       ///< [seed]
+
+  /// Room for all seeds of the stores.
+  explicit SeedCloud(const std::vector<SeedStore>& stores);
+  /// Takes the positions of the seed in this slot.
+  void take(const SeedStore& store, int t, int slot);
+  Vec3 position(int sphere) const { return {x[sphere], y[sphere], z[sphere]}; }
+};
+
+struct SpherePair {
+  int first, second;  ///< first < second
+};
+
+/// All pairs of sub-spheres of different seeds whose surfaces are nearer than the skin, sorted, of which at
+/// least one belongs to a seed marked in `own`. Seeds are compared first, in linked cells of the size of the
+/// largest; of two seeds whose balls come close only the sub-spheres in reach of the other's ball.
+std::vector<SpherePair> pairs_within(const std::vector<SeedStore>& stores, const SeedCloud& cloud,
+                                     double skin, const std::vector<char>& own);
+
+}  // namespace seedflow

@@ -1,0 +1,137 @@
+#include "seedflow/seeds/contact_list.h"
+
+#include <algorithm>
+
+#include "seedflow/seeds/contact_geometry.h"
+
+namespace seedflow {
+
+void PairList::set(const std::vector<SpherePair>& pairs, const std::vector<int>& law,
+                   const std::vector<int>& group, const std::vector<int>& entry_of,
+                   const std::vector<ContactLaw>& laws, const ContactBodies& bodies,
+                   const ContactHistory& history) {
+  segments.clear(), first.clear(), second.clear(), slot.clear(), same_seeds.clear();
+  memory.clear();
+  for (int l = 0; l < static_cast<int>(laws.size()); ++l) {
+    Segment segment{l, static_cast<int>(first.size()), 0, 0};
+    auto old = history.pairs.begin();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (law[k] != l) continue;
+      const SpherePair& pair = pairs[k];
+      first.push_back(entry_of[pair.first]);
+      second.push_back(entry_of[pair.second]);
+      slot.push_back(-1);
+      if (!group.empty()) same_seeds.push_back(group[k]);
+      const double a = bodies.state[first.back()].radius(), b = bodies.state[second.back()].radius();
+      segment.reach = std::max(segment.reach, laws[l].reach(a * b / (a + b)));
+      while (old != history.pairs.end() &&
+             (old->first != pair.first ? old->first < pair.first : old->second < pair.second))
+        ++old;
+      if (old != history.pairs.end() && old->first == pair.first && old->second == pair.second) {
+        slot.back() = memory.take();
+        std::copy_n(old->memory, 8, memory[slot.back()].value);
+      }
+    }
+    segment.end = static_cast<int>(first.size());
+    if (segment.end > segment.begin) segments.push_back(segment);
+  }
+  first.resize(slot.size() + lane_width, 0);
+  second.resize(slot.size() + lane_width, 0);
+  n_in_group.assign(group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1, 0);
+  touching.assign(slot.size() + lane_width, 0);
+}
+
+void PairList::find_touching(Segment& segment, const ContactBodies& bodies) {
+  segment.touching_end = segment.touching_begin;
+  const auto gather = [&](const std::vector<int>& entry, int k, int component) {
+    Lanes r;
+    for (int l = 0; l < lane_width; ++l) r[l] = bodies.state[entry[k + l]].motion[component];
+    return r;
+  };
+  for (int k = segment.begin; k < segment.end; k += lane_width) {
+    const Lanes dx = gather(first, k, 0) - gather(second, k, 0),
+                dy = gather(first, k, 1) - gather(second, k, 1),
+                dz = gather(first, k, 2) - gather(second, k, 2),
+                close = gather(first, k, 3) + gather(second, k, 3) + segment.reach;
+    unsigned bits = mask_bits(dx * dx + dy * dy + dz * dz < close * close);
+    const int n = std::min(lane_width, segment.end - k);
+    bits &= (1u << n) - 1;
+    for (int l = 0; l < n; ++l) {
+      int& line = slot[k + l];
+      const bool touches = bits >> l & 1;
+      if (touches == (line >= 0)) continue;
+      if (touches)
+        line = memory.take();
+      else
+        memory.release(line), line = -1;
+    }
+    for (; bits; bits &= bits - 1) touching[segment.touching_end++] = k + __builtin_ctz(bits);
+  }
+}
+
+template <Rolling rolling, Cohesion cohesion>
+void PairList::add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
+                           double step) {
+  const bool normalised = !same_seeds.empty();
+  for (int k = segment.touching_begin; k < segment.touching_end; k += lane_width) {
+    const int n = std::min(lane_width, segment.touching_end - k);
+    int pair[lane_width];
+    const CacheLine *motion_a[lane_width], *turning_a[lane_width], *motion_b[lane_width],
+        *turning_b[lane_width], *line[lane_width];
+    Lanes share = Lanes{} + 1.0;
+    for (int l = 0; l < lane_width; ++l) {
+      pair[l] = touching[k + std::min(l, n - 1)];
+      const ContactSphere &a = bodies.state[first[pair[l]]], &b = bodies.state[second[pair[l]]];
+      motion_a[l] = &a.motion, turning_a[l] = &a.turning;
+      motion_b[l] = &b.motion, turning_b[l] = &b.turning;
+      line[l] = &memory[slot[pair[l]]];
+      if (normalised) share[l] = contact_share(n_in_group[same_seeds[pair[l]]]);
+    }
+    const LaneSphere a(motion_a, turning_a), b(motion_b, turning_b);
+    LaneMemory remembered(line);
+    const PairAction action = act_between<rolling, cohesion>(law, a, b, share, step, remembered.memory);
+    CacheLine on_a[lane_width], on_b[lane_width], kept[lane_width];
+    records_of(action.force, action.torque_a, on_a);
+    records_of(-action.force, action.torque_b, on_b);
+    remembered.to(action.normal_force, kept);
+    for (int l = 0; l < n; ++l) {
+      const_cast<CacheLine&>(*line[l]) = kept[l];
+      add(bodies.sum[bodies.body[first[pair[l]]]], on_a[l]);
+      add(bodies.sum[bodies.body[second[pair[l]]]], on_b[l]);
+    }
+  }
+}
+
+void PairList::add_forces(const std::vector<ContactLaw>& laws, ContactBodies& bodies, double step) {
+  int begin = 0;
+  for (Segment& segment : segments) {
+    segment.touching_begin = begin;
+    find_touching(segment, bodies);
+    begin = segment.touching_end;
+  }
+  if (!same_seeds.empty()) {
+    std::fill(n_in_group.begin(), n_in_group.end(), 0);
+    for (int k = 0; k < begin; ++k) ++n_in_group[same_seeds[touching[k]]];
+  }
+  for (const Segment& segment : segments)
+    with_models(laws[segment.law], [&](auto rolling, auto cohesion) {
+      add_segment<decltype(rolling)::value, decltype(cohesion)::value>(segment, laws[segment.law], bodies,
+                                                                       step);
+    });
+}
+
+void PairList::collect(const ContactBodies& bodies, std::vector<ContactHistory::Pair>& out) const {
+  for (std::size_t k = 0; k < slot.size(); ++k) {
+    if (slot[k] < 0) continue;
+    ContactHistory::Pair pair{bodies.sphere[first[k]], bodies.sphere[second[k]], {}};
+    std::copy_n(memory[slot[k]].value, 8, pair.memory);
+    out.push_back(pair);
+  }
+}
+
+std::size_t PairList::bytes() const {
+  return memory.bytes() + sizeof(int) * (first.capacity() + second.capacity() + slot.capacity() +
+                                         same_seeds.capacity() + n_in_group.capacity() + touching.capacity());
+}
+
+}  // namespace seedflow

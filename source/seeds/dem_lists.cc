@@ -1,0 +1,84 @@
+// When and from what the contact lists are made.
+
+#include <algorithm>
+
+#include "seedflow/seeds/dem.h"
+
+namespace seedflow {
+
+std::vector<Placement> Dem::placements(double time) const {
+  std::vector<Placement> result;
+  result.reserve(all_walls.size());
+  for (const Wall& w : all_walls) result.push_back(seedflow::placement(w, time));
+  return result;
+}
+
+double Dem::wall_speed(double time) const {
+  double speed = 0;
+  for (const Wall& w : all_walls)
+    if (w.active) speed = std::max(speed, seedflow::largest_speed(w, time, lowest, highest));
+  return speed;
+}
+
+void Dem::make_lists(double time) {
+  complete_positions();
+  SeedCloud cloud(store);
+  std::vector<char> own(numbering.n_seeds(), 0);
+  lowest = {1e300, 1e300, 1e300}, highest = {-1e300, -1e300, -1e300};
+  for (std::size_t t = 0; t < store.size(); ++t)
+    for (int slot = 0; slot < static_cast<int>(store[t].seed.size()); ++slot) {
+      cloud.take(store[t], static_cast<int>(t), slot);
+      const int seed = numbering.first_seed[t] + slot, b = slot / lane_width;
+      own[seed] = b >= share.begin(t) && b < share.end(t);
+      const Ball& ball = cloud.ball[seed];
+      for (int c = 0; c < 3; ++c) {
+        lowest[c] = std::min(lowest[c], ball.centre[c] - ball.radius);
+        highest[c] = std::max(highest[c], ball.centre[c] + ball.radius);
+      }
+    }
+  ContactHistory known;
+  if (contacts.is_listed()) {
+    known = contacts.history();
+  } else {
+    known = std::move(parked);
+    known.renumber(sphere_numbers());
+    parked = {};
+  }
+  const std::vector<Placement> place = placements(time);
+  contacts.search({store, cloud, own, first_block, all_walls, place}, parameters.contacts, known);
+  ++searches;
+  for (std::size_t t = 0; t < store.size(); ++t)
+    for (int b = share.begin(t); b < share.end(t); ++b) contacts.place(first_block[t] + b, store[t], b);
+  ghosts.set(share, numbering, store, contacts.bodies(), contacts.pair_list());
+  ghosts.bring(share, contacts.bodies());
+  travel.begin(store, share, contacts.skin());
+}
+
+std::vector<int> Dem::sphere_numbers() const {
+  const Numbering present(store);
+  std::vector<int> number;
+  number.reserve(n_spheres());
+  for (const Slot& slot : slots) {
+    const int n = store[slot.store].n_spheres();
+    for (int i = 0; i < n; ++i) number.push_back(present.first_sphere[slot.store] + slot.slot * n + i);
+  }
+  return number;
+}
+
+ContactHistory Dem::history() const {
+  if (!contacts.is_listed()) return parked;
+  ContactHistory all = share.n_ranks() > 1 ? merged : contacts.history();
+  const std::vector<int> number = sphere_numbers();
+  std::vector<int> users_number(number.size());
+  for (std::size_t k = 0; k < number.size(); ++k) users_number[number[k]] = static_cast<int>(k);
+  all.renumber(users_number);
+  return all;
+}
+
+void Dem::park() {
+  if (!contacts.is_listed()) return;
+  parked = history();
+  contacts.forget();
+}
+
+}  // namespace seedflow

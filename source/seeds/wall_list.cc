@@ -1,0 +1,144 @@
+#include "seedflow/seeds/wall_list.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "seedflow/seeds/contact_geometry.h"
+
+namespace seedflow {
+
+void WallList::set(const std::vector<WallCandidate>& candidates, const std::vector<int>& law,
+                   const std::vector<int>& group, const std::vector<int>& block,
+                   const std::vector<int>& entry_of, const std::vector<ContactLaw>& laws,
+                   const ContactBodies& bodies, const ContactHistory& history) {
+  segments.clear(), candidate.clear(), touching.clear(), seat.clear();
+  memory.clear();
+  first_fault = {};
+  std::map<std::pair<int, int>, int> seat_of;
+  for (int l = 0; l < static_cast<int>(laws.size()); ++l) {
+    Segment segment{l, static_cast<int>(candidate.size()), 0, 0};
+    auto old = history.on_wall.begin();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (law[k] != l) continue;
+      const WallCandidate& c = candidates[k];
+      const auto place = seat_of.emplace(std::make_pair(block[k], c.wall), static_cast<int>(seat.size()));
+      if (place.second) seat.push_back({block[k], c.wall, {}});
+      const int number = static_cast<int>(candidate.size());
+      candidate.push_back({entry_of[c.sphere], c.wall, group.empty() ? -1 : group[k], place.first->second});
+      segment.reach = std::max(segment.reach, laws[l].reach(bodies.state[entry_of[c.sphere]].radius()));
+      while (old != history.on_wall.end() &&
+             (old->sphere != c.sphere ? old->sphere < c.sphere : old->wall < c.wall))
+        ++old;
+      for (; old != history.on_wall.end() && old->sphere == c.sphere && old->wall == c.wall; ++old) {
+        touching.push_back({number, old->feature, memory.take()});
+        std::copy_n(old->memory, 8, memory[touching.back().line].value);
+      }
+    }
+    segment.end = static_cast<int>(candidate.size());
+    if (segment.end > segment.begin) segments.push_back(segment);
+  }
+  n_in_group.assign(group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1, 0);
+}
+
+void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
+                             const std::vector<Placement>& place, const ContactBodies& bodies) {
+  segment.touching_begin = static_cast<int>(touching.size());
+  auto old = std::lower_bound(before.begin(), before.end(), segment.begin,
+                              [](const Touching& t, int number) { return t.candidate < number; });
+  for (int k = segment.begin; k < segment.end; ++k) {
+    const Candidate& c = candidate[k];
+    const ContactSphere& sphere = bodies.state[c.entry];
+    found.clear();
+    contacts_near(walls[c.wall], place[c.wall], sphere.position(), sphere.radius() + segment.reach, found);
+    auto last = old;
+    while (last != before.end() && last->candidate == k) ++last;
+    for (const WallPoint& p : found) {
+      if (p.distance < 0 && first_fault.sphere < 0) first_fault = {bodies.sphere[c.entry], c.wall};
+      const auto same =
+          std::find_if(old, last, [&](const Touching& t) { return t.feature == p.feature && t.line >= 0; });
+      int line;
+      if (same != last)
+        line = same->line, same->line = -1;
+      else
+        line = memory.take();
+      touching.push_back({k, p.feature, line});
+      point.push_back(
+          {{p.normal.x, p.normal.y, p.normal.z, p.distance, p.velocity.x, p.velocity.y, p.velocity.z, 0}});
+    }
+    for (; old != last; ++old)
+      if (old->line >= 0) memory.release(old->line);
+  }
+  segment.touching_end = static_cast<int>(touching.size());
+}
+
+template <Rolling rolling, Cohesion cohesion>
+void WallList::add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
+                           double step) {
+  for (int k = segment.touching_begin; k < segment.touching_end; k += lane_width) {
+    const int n = std::min(lane_width, segment.touching_end - k);
+    const CacheLine *motion[lane_width], *turning[lane_width], *where[lane_width], *line[lane_width];
+    const Candidate* who[lane_width];
+    Lanes share = Lanes{} + 1.0;
+    for (int l = 0; l < lane_width; ++l) {
+      const int t = k + std::min(l, n - 1);
+      who[l] = &candidate[touching[t].candidate];
+      const ContactSphere& a = bodies.state[who[l]->entry];
+      motion[l] = &a.motion, turning[l] = &a.turning;
+      where[l] = &point[t];
+      line[l] = &memory[touching[t].line];
+      if (who[l]->group >= 0) share[l] = contact_share(n_in_group[who[l]->group]);
+    }
+    const LaneSphere a(motion, turning);
+    LaneMemory remembered(line);
+    Lanes p[8];
+    load_columns(where, p);
+    const PairAction action = act_on_wall<rolling, cohesion>(
+        law, a, {p[0], p[1], p[2]}, p[3], {p[4], p[5], p[6]}, share, step, remembered.memory);
+    CacheLine on_a[lane_width], kept[lane_width];
+    records_of(action.force, action.torque_a, on_a);
+    remembered.to(action.normal_force, kept);
+    for (int l = 0; l < n; ++l) {
+      const_cast<CacheLine&>(*line[l]) = kept[l];
+      add(bodies.sum[bodies.body[who[l]->entry]], on_a[l]);
+      seat[who[l]->seat].force += Vec3{on_a[l][0], on_a[l][1], on_a[l][2]};
+    }
+  }
+}
+
+void WallList::add_forces(const std::vector<ContactLaw>& laws, const std::vector<Wall>& walls,
+                          const std::vector<Placement>& place, ContactBodies& bodies, double step) {
+  std::swap(touching, before);
+  touching.clear(), point.clear();
+  for (Segment& segment : segments) find_touching(segment, walls, place, bodies);
+  std::fill(n_in_group.begin(), n_in_group.end(), 0);
+  for (const Touching& t : touching)
+    if (candidate[t.candidate].group >= 0) ++n_in_group[candidate[t.candidate].group];
+  for (Seat& s : seat) s.force = Vec3{};
+  for (const Segment& segment : segments)
+    with_models(laws[segment.law], [&](auto rolling, auto cohesion) {
+      add_segment<decltype(rolling)::value, decltype(cohesion)::value>(segment, laws[segment.law], bodies,
+                                                                       step);
+    });
+}
+
+void WallList::collect(const ContactBodies& bodies, std::vector<ContactHistory::OnWall>& out) const {
+  for (const Touching& t : touching) {
+    const Candidate& c = candidate[t.candidate];
+    ContactHistory::OnWall contact{bodies.sphere[c.entry], c.wall, t.feature, {}};
+    std::copy_n(memory[t.line].value, 8, contact.memory);
+    out.push_back(contact);
+  }
+}
+
+void WallList::add_wall_forces(double factor, int n_walls, std::vector<Vec3>& sum) const {
+  for (const Seat& s : seat) sum[static_cast<std::size_t>(s.block) * n_walls + s.wall] += factor * s.force;
+}
+
+std::size_t WallList::bytes() const {
+  return memory.bytes() + candidate.capacity() * sizeof(Candidate) +
+         (touching.capacity() + before.capacity()) * sizeof(Touching) + point.capacity() * sizeof(CacheLine) +
+         seat.capacity() * sizeof(Seat) + n_in_group.capacity() * sizeof(int);
+}
+
+}  // namespace seedflow
