@@ -8,9 +8,12 @@ namespace seedflow {
 namespace {
 
 std::vector<BenchResult> seed_results(const std::string& name, const SeedBench& bench) {
-  return {{name + "/rate", bench.rate, "sub-sphere-steps/s per core"},
-          {name + "/memory", bench.bytes_per_sphere, "bytes per sub-sphere"},
-          {name + "/contacts per seed", bench.contacts_per_seed, "1"}};
+  return {{name + "/rate", bench.rate, "sub-sphere-steps/s per core", bench.n_ranks},
+          {name + "/memory", bench.bytes_per_sphere, "bytes per sub-sphere", bench.n_ranks},
+          {name + "/contacts per seed", bench.contacts_per_seed, "1", bench.n_ranks},
+          {name + "/kinetic energy", bench.kinetic_energy, "J per seed", bench.n_ranks},
+          {name + "/steps per search", bench.substeps_per_search, "1", bench.n_ranks},
+          {name + "/imbalance", bench.imbalance, "1", bench.n_ranks}};
 }
 
 std::vector<BenchResult> append(std::vector<BenchResult> a, const std::vector<BenchResult>& b) {
@@ -19,8 +22,26 @@ std::vector<BenchResult> append(std::vector<BenchResult> a, const std::vector<Be
 }
 
 std::vector<BenchResult> seeds_bonded() {
-  return append(seed_results("seeds-bonded", bench_seeds_bonded()),
-                seed_results("seeds-bonded, packed", bench_seeds_bonded(true)));
+  return seed_results("seeds-bonded", bench_heap({}, MPI_COMM_WORLD));
+}
+
+std::vector<BenchResult> seeds_rigid() {
+  HeapBench small, large;
+  small.rigid = large.rigid = true;
+  small.n_seeds = 200, large.n_seeds = 2000;
+  return append(seed_results("seeds-rigid, 200", bench_heap(small, MPI_COMM_WORLD)),
+                seed_results("seeds-rigid, 2000", bench_heap(large, MPI_COMM_WORLD)));
+}
+
+std::vector<BenchResult> spheres() {
+  HeapBench heap;
+  heap.n_seeds = 10000, heap.n_sub_spheres = 1, heap.rigid = true;
+  heap.time_step = 2e-6;
+  return seed_results("spheres", bench_heap(heap, MPI_COMM_WORLD));
+}
+
+std::vector<BenchResult> drum() {
+  return seed_results("drum", bench_drum(40, 2, MPI_COMM_WORLD));
 }
 
 std::vector<BenchResult> air() {
@@ -52,9 +73,13 @@ std::vector<BenchResult> locate() {
 }  // namespace
 
 std::vector<Bench> bench_catalogue() {
-  return {{"air", "lid-driven cavity of 40^3 cells, implicit convection, pressure to 1e-6", air},
-          {"seeds-bonded", "800 bonded seeds of 70 sub-spheres: bonds, motion, contact search", seeds_bonded},
-          {"locate", "56,000 sub-spheres to the cells of an adaptive mesh of more than 50,000 cells", locate}};
+  return {
+      {"air", "lid-driven cavity of 40^3 cells, implicit convection, pressure to 1e-6", air},
+      {"seeds-bonded", "settled heap of 800 bonded seeds of 70 sub-spheres", seeds_bonded},
+      {"seeds-rigid", "settled heaps of 200 and 2000 rigid seeds of 70 sub-spheres", seeds_rigid},
+      {"spheres", "settled bed of 10,000 plain spheres", spheres},
+      {"drum", "2,200 plain spheres in a drum at 40 turns a minute", drum},
+      {"locate", "56,000 sub-spheres to the cells of an adaptive mesh of more than 50,000 cells", locate}};
 }
 
 }  // namespace seedflow

@@ -108,6 +108,8 @@ class Dem {
   std::vector<TimeStepLimit> time_step_limits() const;
 
   // Running.
+  /// The largest substep from now on [s].
+  void set_time_step(double time_step) { parameters.time_step = time_step; }
   /// Replaces the outside loads; they stay until replaced. Sizes are n_spheres() or 0.
   void set_loads(const SphereLoads& loads);
   /// Advances by `duration` [s] in equal substeps not longer than the time step.
