@@ -16,9 +16,23 @@ double squared(double x) {
   return x * x;
 }
 
-/// A smooth rest beyond the stated uncertainties, of which the data are sure.
+std::string rounded(double value, int digits = 2) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+/// A smooth rest beyond the stated uncertainties, of which the data are sure; or inputs strained beyond
+/// belief.
 bool leaves_a_rest(const Weighed& w) {
-  return w.noise.discrepancy > largest_rest && w.score - w.score_as_stated > sure;
+  return (w.noise.discrepancy > largest_rest && w.score - w.score_as_stated > sure) ||
+         chi2_tail(w.fit.chi2, w.fit.points) < 1e-5;
+}
+
+std::string rest_in_words(const Weighed& w) {
+  if (w.noise.discrepancy > largest_rest)
+    return "leaves a smooth rest of " + rounded(w.noise.discrepancy) + " standard uncertainties";
+  return "strains the inputs beyond their uncertainties (chi2/n " + rounded(w.fit.chi2 / w.fit.points) + ")";
 }
 
 bool believable(const Weighed& w) {
@@ -29,12 +43,6 @@ bool believable(const Weighed& w) {
 
 bool contains(const std::vector<int>& larger, const std::vector<int>& smaller) {
   return std::includes(larger.begin(), larger.end(), smaller.begin(), smaller.end());
-}
-
-std::string rounded(double value, int digits = 2) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
 }
 
 }  // namespace
@@ -93,7 +101,11 @@ Tried* Conclusion::decide(std::vector<Tried>& tried, Diagnosis& answer) {
   };
   Tried& nothing = *std::find_if(tried.begin(), tried.end(), is_nothing);
   answer.noise_scale = std::hypot(nothing.trained.noise.white_scale, nothing.trained.noise.discrepancy);
-  if (gate.passes()) {
+  // What has passed the gate is opened again only for a sure explanation.
+  const auto likeliest = std::find_if(
+      tried.begin(), tried.end(), [](const Tried& t) { return t.trained.possible && believable(t.trained); });
+  const bool reopened = likeliest->total() > nothing.total() + sure && likeliest->trained.noise.as_stated();
+  if (gate.passes() && !reopened) {
     answer.noise_scale = 1;
     LinearModel exact = nothing.trained.linear;
     const auto inputs = static_cast<Eigen::Index>(model.uncertain_inputs().size());
@@ -121,9 +133,8 @@ Tried* Conclusion::decide(std::vector<Tried>& tried, Diagnosis& answer) {
   if (leaves_a_rest(best.trained)) {
     answer.verdict = Verdict::not_in_catalogue;
     if (!is_nothing(best))
-      answer.remarks.push_back("\"" + words(best.trained.what) +
-                               "\" comes nearest but leaves a smooth rest of " +
-                               rounded(best.trained.noise.discrepancy) + " standard uncertainties.");
+      answer.remarks.push_back("\"" + words(best.trained.what) + "\" comes nearest but " +
+                               rest_in_words(best.trained) + ".");
     return &nothing;
   }
   if (is_nothing(best)) {
@@ -223,14 +234,14 @@ void Conclusion::fill_in(const Tried& winner, Diagnosis& answer) const {
   for (std::size_t i = 0; i < w.what.set.size(); ++i) setting.amplitude[w.what.set[i]] = w.amplitude[i];
   if (w.what.nuisance >= 0) {
     answer.input = model.nuisances()[w.what.nuisance].name;
+    const Eigen::Index last = w.fit.mean.size() - 1;
+    const double x = Weighing::widening * w.fit.mean[last],
+                 s = 1.96 * Weighing::widening * std::sqrt(w.fit.covariance(last, last));
+    answer.input_value = {x, x - s, x + s};
     for (std::size_t e = 0; e < model.uncertain_inputs().size(); ++e) {
-      if (model.uncertain_inputs()[e].nuisance != w.what.nuisance) continue;
-      const auto j = static_cast<Eigen::Index>(e);
-      const double x = Weighing::widening * w.fit.mean[j],
-                   s = 1.96 * Weighing::widening * std::sqrt(w.fit.covariance(j, j));
-      if (std::abs(x) > std::abs(answer.input_value.value)) answer.input_value = {x, x - s, x + s};
-      const auto& applies = model.uncertain_inputs()[e].applies;
-      if (std::all_of(applies.begin(), applies.end(), [](bool b) { return b; }))
+      const auto& input = model.uncertain_inputs()[e];
+      if (input.nuisance == w.what.nuisance &&
+          std::all_of(input.applies.begin(), input.applies.end(), [](bool b) { return b; }))
         setting.error[static_cast<int>(e)] = x;
     }
   }
@@ -309,7 +320,7 @@ void Conclusion::fill_explanations(const std::vector<Tried>& tried, Diagnosis& a
     if (!believable(w))
       e.why_lost = "its fitted amplitude is not that of the published effect";
     else if (t.total() < top - 1e-9 && leaves_a_rest(w))
-      e.why_lost = "leaves a smooth rest of " + rounded(w.noise.discrepancy) + " uncertainties";
+      e.why_lost = rest_in_words(w);
     else if (t.total() < top - 1e-9)
       e.why_lost = "less probable by a factor of e^" + rounded(top - t.total(), 3);
     answer.explanations.push_back(e);

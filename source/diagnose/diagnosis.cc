@@ -108,8 +108,8 @@ Eigen::VectorXd run_fitted(ObservableModel& model, Responses& responses, Weighin
     for (std::size_t i = 0; i < w.what.set.size(); ++i) setting.amplitude[w.what.set[i]] = w.amplitude[i];
     Eigen::VectorXd x = w.fit.mean;
     for (Eigen::Index e = 0; e < inputs; ++e) {
-      const bool widened = model.uncertain_inputs()[e].nuisance == w.what.nuisance;
-      setting.error[static_cast<int>(e)] = (widened ? Weighing::widening : 1.0) * x[e];
+      const bool off = model.uncertain_inputs()[e].nuisance == w.what.nuisance;
+      setting.error[static_cast<int>(e)] = x[e] + (off ? Weighing::widening * x[x.size() - 1] : 0.0);
     }
     for (std::size_t i = 0; i < w.amplitude.size(); ++i)
       x[first + static_cast<Eigen::Index>(i)] = (w.amplitude[i] - 1) / Weighing::amplitude_deviation;
@@ -215,8 +215,7 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   if (largest < problem.budget.largest_names)
     answer.remarks.push_back("Only " + std::to_string(training_conditions) +
                              " training conditions: at most as many effects can be told apart.");
-  std::vector<Tried> tried =
-      select(weighing, noise, split, acting, static_cast<int>(model.nuisances().size()), largest);
+  std::vector<Tried> tried = select(weighing, noise, split, acting, largest);
 
   const Adequacy gate = adequacy(noise, nothing, split, answer);
   Conclusion conclusion{model, responses, weighing, noise, split, gate, z};

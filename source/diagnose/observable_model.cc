@@ -276,6 +276,12 @@ Eigen::VectorXd ObservableModel::regime(const std::string& name) {
   return all;
 }
 
+const std::string& ObservableModel::coordinate_name(const std::string& quantity) const {
+  return std::find_if(observer.observables.begin(), observer.observables.end(),
+                      [&](const Observable& o) { return o.name == quantity; })
+      ->coordinate;
+}
+
 std::vector<std::string> ObservableModel::idle_effects() {
   std::vector<std::string> names;
   if (!ready[0]->idle_effects) return names;

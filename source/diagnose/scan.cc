@@ -38,7 +38,7 @@ void add_thirds(const std::string& axis, std::vector<std::pair<double, Eigen::In
 std::vector<Bin> make_bins(ObservableModel& model, const DataNoise& noise, const std::vector<bool>& use) {
   std::map<int, Bin> condition;
   std::map<std::string, Bin> quantity;
-  std::vector<std::pair<double, Eigen::Index>> coordinate;
+  std::map<std::string, std::vector<std::pair<double, Eigen::Index>>> coordinate;
   std::vector<char> used(model.points().size(), 0);
   for (std::size_t s = 0; s < noise.series().size(); ++s) {
     if (!use[s]) continue;
@@ -48,7 +48,8 @@ std::vector<Bin> make_bins(ObservableModel& model, const DataNoise& noise, const
       const DataPoint& point = model.points()[p];
       condition[point.condition].points.push_back(p);
       quantity[point.quantity].points.push_back(p);
-      if (std::isfinite(point.coordinate)) coordinate.emplace_back(point.coordinate, p);
+      if (std::isfinite(point.coordinate))
+        coordinate[model.coordinate_name(point.quantity)].emplace_back(point.coordinate, p);
     }
   }
   std::vector<Bin> bins;
@@ -60,7 +61,7 @@ std::vector<Bin> make_bins(ObservableModel& model, const DataNoise& noise, const
     bin.axis = "quantity", bin.name = name;
     if (quantity.size() > 1) bins.push_back(bin);
   }
-  add_thirds("coordinate", coordinate, bins);
+  for (const auto& [name, values] : coordinate) add_thirds(name, values, bins);
   for (const std::string& name : model.regimes()) {
     const Eigen::VectorXd value = model.regime(name);
     std::vector<std::pair<double, Eigen::Index>> values;

@@ -65,11 +65,11 @@ void predict_held_out(Weighing& weighing, const DataNoise& noise, const std::vec
 }
 
 std::vector<Tried> select(Weighing& weighing, const DataNoise& noise, const Split& split,
-                          const std::vector<int>& acting, int n_nuisances, int largest) {
+                          const std::vector<int>& acting, int largest) {
   const std::vector<NoiseVariant>& variants = noise_variants();
   std::vector<Weighed> all, level;
   all.push_back(weighing.weigh({}, split.training, true, variants));
-  for (int k = 0; k < n_nuisances; ++k)
+  for (const int k : weighing.inputs_that_may_be_off())
     all.push_back(weighing.weigh({{}, k}, split.training, true, variants));
   for (const int k : acting) level.push_back(weighing.weigh({{k}}, split.training, true, variants));
   sort_by_score(level);

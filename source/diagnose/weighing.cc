@@ -12,6 +12,17 @@ Weighing::Weighing(ObservableModel& model, Responses& responses, const DataNoise
     measured[static_cast<Eigen::Index>(i)] = model.points()[i].value;
 }
 
+std::vector<int> Weighing::inputs_that_may_be_off() const {
+  std::vector<int> list;
+  for (std::size_t m = 0; m < model.nuisances().size(); ++m) {
+    const Nuisance& nuisance = model.nuisances()[m];
+    // The drag level is no input: drag far off its law is a missing effect.
+    if (nuisance.path.compare(0, 8, "Effects/") != 0 && !nuisance.each_condition)
+      list.push_back(static_cast<int>(m));
+  }
+  return list;
+}
+
 double Weighing::price(const Hypothesis& what) const {
   double sum = static_cast<double>(what.set.size()) * std::log(std::max(acting, 1) / odds);
   if (what.nuisance >= 0) sum += std::log(static_cast<double>(model.nuisances().size()) / odds);
@@ -29,8 +40,10 @@ LinearModel Weighing::linearise(const Hypothesis& what, const std::vector<double
   const Eigen::Index n = measured.size(), e = inputs.cols(), c = numerics.cols(),
                      k = static_cast<Eigen::Index>(what.set.size());
   LinearModel linear;
-  linear.directions.resize(n, e + c + k);
-  linear.directions << inputs, numerics, amplitude_deviation * now.slope;
+  linear.directions.setZero(n, e + c + k + (what.nuisance >= 0 ? 1 : 0));
+  linear.directions.leftCols(e) = inputs;
+  linear.directions.middleCols(e, c) = numerics;
+  linear.directions.middleCols(e + c, k) = amplitude_deviation * now.slope;
   // x of an amplitude is (a - 1)/0.25: the residual is taken about a = 1.
   linear.residual = measured - now.value;
   for (Eigen::Index i = 0; i < k; ++i)
@@ -39,12 +52,12 @@ LinearModel Weighing::linearise(const Hypothesis& what, const std::vector<double
   // What scatters from condition to condition also drifts slowly within one, by half as much.
   std::vector<Eigen::VectorXd> tolerance;
   for (std::size_t m = 0; m < model.nuisances().size(); ++m) {
-    const bool widened = what.nuisance == static_cast<int>(m);
+    const bool off = what.nuisance == static_cast<int>(m);
     Eigen::VectorXd drift = Eigen::VectorXd::Zero(n);
     for (Eigen::Index j = 0; j < e; ++j) {
       if (model.uncertain_inputs()[j].nuisance != static_cast<int>(m)) continue;
       drift += 0.5 * inputs.col(j);
-      if (widened) linear.directions.col(j) *= widening;
+      if (off) linear.directions.col(e + c + k) += widening * inputs.col(j);
     }
     if (model.nuisances()[m].each_condition && model.nuisances()[m].relative) tolerance.push_back(drift);
   }

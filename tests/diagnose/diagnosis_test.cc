@@ -63,8 +63,8 @@ TEST(Diagnosis, AnInputThatIsOffIsNoEffect) {
 
 TEST(Diagnosis, ACoarseTimeStepIsNotAMissingEffect) {
   Problem p = falling_seeds("coarse");
-  measure(p, {{"Run/Time step", 1e-4}}, 0.002, 1);
-  p.overrides = {"Run/Time step=0.1"};
+  measure(p, {{"Run/Time step", 1e-4}}, 0.001, 1, 4);  // values every 75 ms, so that a step may be as long
+  p.overrides = {"Run/Time step=0.075"};
   const Diagnosis d = diagnose(p);
   EXPECT_EQ(d.verdict, Verdict::numerics_dominate) << report(d);
 }

@@ -40,6 +40,8 @@ class ObservableModel {
   const std::vector<Candidate>& candidates() const { return all_candidates; }
   const std::vector<Nuisance>& nuisances() const { return all_nuisances; }
   const std::vector<std::string>& regimes() const { return observer.regimes; }
+  /// "time", ...
+  const std::string& coordinate_name(const std::string& quantity) const;
   int n_series() const { return series_count; }
 
   /// Input errors: one per nuisance and group of conditions that share it.

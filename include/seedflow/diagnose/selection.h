@@ -29,7 +29,7 @@ Split split_series(const ObservableModel& model, const DataNoise& noise, const s
 /// removed without loss lose to the smaller ones by the price of multiplicity (the backward check). Best
 /// first.
 std::vector<Tried> select(Weighing& weighing, const DataNoise& noise, const Split& split,
-                          const std::vector<int>& acting, int n_nuisances, int largest);
+                          const std::vector<int>& acting, int largest);
 
 /// Predicts the series `to` from what was fitted elsewhere.
 void predict_held_out(Weighing& weighing, const DataNoise& noise, const std::vector<bool>& to, Tried& tried);

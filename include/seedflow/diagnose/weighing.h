@@ -7,8 +7,8 @@
 
 namespace seedflow {
 
-/// What may explain the data: a set of candidates (empty: nothing is missing), or one nuisance whose prior is
-/// widened eightfold (an input is off).
+/// What may explain the data: a set of candidates (empty: nothing is missing), or one input that is off, in
+/// all conditions alike, with a prior eight times as wide as stated.
 struct Hypothesis {
   std::vector<int> set;
   int nuisance = -1;
@@ -44,6 +44,8 @@ class Weighing {
   /// The linear model of a hypothesis about given amplitudes.
   LinearModel linearise(const Hypothesis& what, const std::vector<double>& amplitude, bool joint);
   double price(const Hypothesis& what) const;
+  /// Nuisances that make sense as inputs that are off altogether.
+  std::vector<int> inputs_that_may_be_off() const;
   /// First column of the amplitudes among the directions.
   Eigen::Index first_amplitude();
 
