@@ -10,6 +10,15 @@ namespace seedflow {
 std::vector<std::string> shape_names() {
   return {"plane", "rectangle", "box", "cylinder", "plate", "mesh"};
 }
+std::vector<std::string> outline_names() {
+  return {"rectangle", "disc"};
+}
+std::vector<std::string> hole_pattern_names() {
+  return {"none", "rectangular", "staggered", "ring", "list"};
+}
+std::vector<std::string> law_names() {
+  return {"rest", "constant", "ramp", "sinusoid", "expression"};
+}
 
 void ShapeEntries::declare(Parameters& p, const std::string& shape) {
   const auto place = [&](const std::string& name, const std::string& doc) {
@@ -55,15 +64,14 @@ void ShapeEntries::declare_plate(Parameters& p) {
   p.vector("Normal", normal, "1", Range::any(), "Across the plate, towards its front.");
   p.vector("Along", along, "1", Range::any(), "First direction in the plate.");
   p.number("Thickness", thickness, "m", Range::non_negative(), "Of the plate.");
-  p.choice("Outline", outline, {"rectangle", "disc"}, "Of the plate.");
+  p.choice("Outline", outline, outline_names(), "Of the plate.");
   if (outline == "disc") {
     p.number("Radius", radius, "m", Range::non_negative(), "Of the disc.");
   } else {
     p.number("Length", length, "m", Range::non_negative(), "Extent in the first direction.");
     p.number("Width", width, "m", Range::non_negative(), "Extent in the second direction.");
   }
-  p.choice("Holes", holes, {"none", "rectangular", "staggered", "ring", "list"},
-           "Pattern of the circular holes.");
+  p.choice("Holes", holes, hole_pattern_names(), "Pattern of the circular holes.");
   if (holes == "none") return;
   p.number("Hole diameter", hole_diameter, "m", Range::non_negative(), "Of all holes.");
   p.number("Chamfer width", chamfer_width, "m", Range::non_negative(),
@@ -166,8 +174,7 @@ Surface ShapeEntries::surface(const std::string& shape, const std::string& name)
 void LawEntries::declare(Parameters& p, const std::string& name, const std::string& speed_name,
                          const std::string& amplitude_name, const std::string& unit,
                          const std::string& speed_unit, const std::string& prefix) {
-  p.choice(name, kind, {"rest", "constant", "ramp", "sinusoid", "expression"},
-           "How it goes in time; the entries below depend on it.");
+  p.choice(name, kind, law_names(), "How it goes in time; the entries below depend on it.");
   if (kind == "rest") return;
   if (kind == "constant" || kind == "ramp")
     p.number(speed_name, speed, speed_unit, Range::any(),

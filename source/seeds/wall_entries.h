@@ -35,6 +35,9 @@ struct ShapeEntries {
 };
 
 std::vector<std::string> shape_names();
+std::vector<std::string> outline_names();
+std::vector<std::string> hole_pattern_names();
+std::vector<std::string> law_names();
 
 /// Entries of one law in time; what is declared depends on its kind.
 struct LawEntries {

@@ -1,11 +1,10 @@
 #include "seedflow/seeds/wall_parameters.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "seedflow/base/error.h"
 #include "seedflow/base/named_sections.h"
 #include "seedflow/base/parameters.h"
-#include "seedflow/seeds/frame.h"
 #include "wall_entries.h"
 
 namespace seedflow {
@@ -30,14 +29,17 @@ WallTable WallTable::named_in(const std::string& file, const std::vector<std::st
   for (const std::string& name : *table.names) {
     auto entry = std::make_unique<Entry>();
     entry->name = name;
-    const auto choose = [&](const std::string& what, std::string& target) {
-      target = written_value(file, overrides, "Walls/" + name + "/" + what, target);
+    // A value that is not allowed is left to Parameters::read, which says so.
+    const auto choose = [&](const std::string& what, std::string& target,
+                            const std::vector<std::string>& options) {
+      const std::string written = written_value(file, overrides, "Walls/" + name + "/" + what, target);
+      if (std::find(options.begin(), options.end(), written) != options.end()) target = written;
     };
-    choose("Shape", entry->shape);
-    choose("Outline", entry->geometry.outline);
-    choose("Holes", entry->geometry.holes);
-    choose("Motion/Translation", entry->translation.kind);
-    choose("Motion/Rotation", entry->rotation.kind);
+    choose("Shape", entry->shape, shape_names());
+    choose("Outline", entry->geometry.outline, outline_names());
+    choose("Holes", entry->geometry.holes, hole_pattern_names());
+    choose("Motion/Translation", entry->translation.kind, law_names());
+    choose("Motion/Rotation", entry->rotation.kind, law_names());
     table.entries.push_back(std::move(entry));
   }
   return table;

@@ -108,7 +108,7 @@ TEST_F(WallParameters, ImpossibleInputIsRefusedWithFileAndLine) {
   refused(walls("a", wall("a", "set Material = cheese")), "cheese");
   refused(walls("a", wall("a", "set Shape = cylinder\nset Radius = 3 mm")), "length");
   refused(walls("a", wall("a", sieve + "set Holes across = 40")), "does not lie inside");
-  refused(walls("a", wall("a", sieve + "set Chamfer width = 0.6 mm\nset Chamfer depth = 0.6 mm")), "overlap");
+  refused(walls("a", wall("a", sieve + "set Chamfer width = 1 mm\nset Chamfer depth = 0.6 mm")), "overlap");
   refused(walls("a", wall("a",
                           "set Shape = plate\nset Length = 30 mm\nset Width = 3 mm\nset Thickness = 1 mm\n"
                           "set Holes = list\nset Hole diameter = 4.2 mm\nset Hole positions = 0, 0")),
