@@ -36,6 +36,13 @@ double BodyLoads::slip_amplification(double own_share, double drag, double slip_
   return 1.0 / remainder;
 }
 
+Vec3 BodyLoads::induced_velocity(std::size_t b, const Vec3& velocity, double time) {
+  TransientSelfVelocity self(record[b]);
+  if (time > last_time) path[b] += (time - last_time) * (0.5 * (velocity + last_velocity[b]) - last_air[b]);
+  if (record[b].empty() || time > last_time) self.append(time, given[b], path[b]);
+  return self.velocity(effective_width(sigma, sigma), {air.density, air.viscosity});
+}
+
 void BodyLoads::evaluate(const Bodies& bodies, const AirAtBodies& seen, const Dem& dem, double time,
                          double dt) {
   const std::size_t n = bodies.size();
@@ -44,6 +51,11 @@ void BodyLoads::evaluate(const Bodies& bodies, const AirAtBodies& seen, const De
     last_velocity = bodies.velocity;
     last_drag.assign(n, 0.0);
     last_slip.assign(n, 0.0);
+    last_time = time;
+    given.assign(n, Vec3());
+    path.assign(n, Vec3());
+    last_air.assign(n, Vec3());
+    record.assign(n, {});
   }
   force.assign(n, BodyForce());
   hydrostatic.assign(n, Vec3());
@@ -75,20 +87,28 @@ void BodyLoads::evaluate(const Bodies& bodies, const AirAtBodies& seen, const De
     nearest_wall(dem.walls(), flow.position, time, flow);
 
     double amplification = 1.0;  // undisturbed over averaged slip
+    Vec3 induced;
     flow.flow_velocity = seen.velocity[b];
     if (sigma > 0) {
       const double own_share =
           displaces ? self_solid_fraction(body.solid_volume, effective_width(sigma, sigma)) : 0.0;
-      amplification = slip_amplification(own_share, last_drag[b], last_slip[b]);
-      flow.flow_velocity = flow.velocity + amplification * (seen.velocity[b] - flow.velocity);
+      if (transient) {
+        induced = induced_velocity(b, flow.velocity, time);
+        amplification = 1.0 / (1.0 + own_share / 3.0);
+      } else {
+        amplification = slip_amplification(own_share, last_drag[b], last_slip[b]);
+      }
+      flow.flow_velocity = flow.velocity + amplification * (seen.velocity[b] - induced - flow.velocity);
       flow.void_fraction = std::min(1.0, flow.void_fraction + own_share);
     }
 
     effects.add(flow, force[b]);
     last_drag[b] = force[b].drag_coefficient;
     last_slip[b] = norm(flow.flow_velocity - flow.velocity);
+    last_air[b] = flow.flow_velocity;
     force[b].drag_coefficient *= amplification;
     if (!air.pressure_shared) force[b].drag_coefficient /= seen.void_fraction[b];
+    force[b].force -= force[b].drag_coefficient * induced;
     hydrostatic[b] = -hydrostatic_strength * body.buoyant_volume * air.density * gravity;
   }
   last_velocity = bodies.velocity;
@@ -100,12 +120,20 @@ void BodyLoads::save(std::ostream& out) const {
   write_binary(out, last_slip);
   write_binary(out, last_velocity);
   write_binary(out, last_time);
+  for (const auto* v : {&given, &path, &last_air}) write_binary(out, *v);
+  write_binary(out, static_cast<std::uint64_t>(record.size()));
+  for (const auto& r : record) write_binary(out, r);
 }
 void BodyLoads::load(std::istream& in) {
   read_binary(in, last_drag);
   read_binary(in, last_slip);
   read_binary(in, last_velocity);
   read_binary(in, last_time);
+  for (auto* v : {&given, &path, &last_air}) read_binary(in, *v);
+  std::uint64_t n = 0;
+  read_binary(in, n);
+  record.resize(n);
+  for (auto& r : record) read_binary(in, r);
 }
 
 }  // namespace seedflow

@@ -39,8 +39,9 @@ CoupledStep::CoupledStep(const CouplingParameters& p, double kernel_width, Fluid
       body_loads(effects, air, gravity),
       remainder(all_bodies.size()),
       body_force(all_bodies.size()) {
-  if (p.undisturbed_velocity == "oseen")
-    body_loads.remove_self_disturbance(sigma, p.void_fraction_kernel == "gaussian" && p.two_way);
+  if (p.undisturbed_velocity != "none")
+    body_loads.remove_self_disturbance(sigma, p.void_fraction_kernel == "gaussian" && p.two_way,
+                                       p.undisturbed_velocity == "transient");
 }
 
 std::vector<double> CoupledStep::void_fraction() {
@@ -105,7 +106,7 @@ void CoupledStep::deposit(double dt) {
   const std::vector<Vec3> gradient = solid.average(all_bodies, fluid.pressure_gradient());
   air_drag.assign(n, 0.0);
   explicit_on_air.assign(n, Vec3());
-  std::vector<Vec3> drag_source(n), force_on_air(n);
+  std::vector<Vec3> drag_source(n);
   for (std::size_t b = 0; b < n; ++b) {
     const BodyForce& f = body_loads.force[b];
     const double K = seed_drag[all_bodies[b].seed], M = seed_mass[all_bodies[b].seed];
@@ -141,6 +142,7 @@ void CoupledStep::book(double dt) {
 
   Vec3 to_seeds, buoyancy, on_the_way;
   double mass = 0;
+  std::vector<Vec3> force_on_air(all_bodies.size());
   for (std::size_t b = 0; b < all_bodies.size(); ++b) {
     const BodyForce& f = body_loads.force[b];
     const Vec3 received = drag_impulse[b] + dt * (f.force - body_loads.hydrostatic[b]);
@@ -154,7 +156,9 @@ void CoupledStep::book(double dt) {
     if (air.pressure_shared) given += dt * all_bodies[b].solid_volume * gradient[b];
     remainder[b] = -(received + given - remainder[b]);
     on_the_way += remainder[b];
+    force_on_air[b] = given / dt;
   }
+  body_loads.remember(force_on_air);
 
   auto& sum = ledger.sum;
   sum.seeds_change += dem.momentum() - seeds_momentum;

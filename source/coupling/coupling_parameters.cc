@@ -28,16 +28,18 @@ void CouplingParameters::declare(Parameters& p) {
            "The volume a seed takes from the air: that of the real seed, or the sum over its sub-spheres.");
   p.choice("Buoyancy volume", buoyancy_volume, {"seed", "sub-spheres", "none"},
            "The volume on which the pressure gradient (buoyancy included) and the added mass act.");
-  p.choice("Undisturbed velocity", undisturbed_velocity, {"oseen", "none"},
-           "A drag law wants the air's velocity as if the seed were absent. 'oseen' removes the seed's own "
-           "disturbance, computed for the Gaussian exchange kernel in closed form.");
+  p.choice(
+      "Undisturbed velocity", undisturbed_velocity, {"oseen", "transient", "none"},
+      "A drag law wants the air's velocity as if the seed were absent. 'oseen' removes the seed's own "
+      "steady disturbance, computed for the Gaussian exchange kernel in closed form; 'transient' the one "
+      "that the forces and the path of the seed so far have built up.");
   p.flag("Two-way", two_way, "Whether the air feels the seeds.");
   p.number("Lowest void fraction", lowest_void_fraction, "1", Range::between(0.0, 0.99),
            "The run stops where the void fraction would fall below: seeds' volume is never cut off.");
 }
 
 void CouplingParameters::check(const Parameters& p) const {
-  if (undisturbed_velocity == "oseen" && (exchange_kernel != "gaussian" || drag_on != "seed"))
+  if (undisturbed_velocity != "none" && (exchange_kernel != "gaussian" || drag_on != "seed"))
     p.reject("Coupling/Undisturbed velocity",
              "the self-induced velocity is known for whole seeds with the Gaussian exchange kernel only",
              "set 'Undisturbed velocity = none', or 'Drag on = seed' with 'Exchange kernel = gaussian'");

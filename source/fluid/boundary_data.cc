@@ -150,12 +150,13 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
 }
 
 template <int dim, int degree>
-void BoundaryData<dim, degree>::set_velocity(double time, std::array<NodalVector, dim>& u) const {
+void BoundaryData<dim, degree>::set_velocity(double time, std::array<NodalVector, dim>& u,
+                                             double factor) const {
   for (int d = 0; d < dim; ++d)
     for (const Node& node : fixed_velocity[d]) {
       const auto& c = condition[node.side];
       const bool given = c.type == BoundaryType::moving_wall || c.type == BoundaryType::velocity_inlet;
-      u[d].local_element(node.node) = given ? c.velocity(node.position, time)[d] : 0.0;
+      u[d].local_element(node.node) = given ? factor * c.velocity(node.position, time)[d] : 0.0;
     }
 }
 

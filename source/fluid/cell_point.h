@@ -58,4 +58,33 @@ SEEDFLOW_INLINE void gradient(const NodalSpace<dim, degree>& space, const CellPo
   at.to_physical(reference, g);
 }
 
+/// The explicit terms of the momentum equation whose part outside the nodal space is treated as a subscale:
+/// c grad p, and with dynamic subscales also the force and the past, c grad p - S - f + rho (a1 eps u^n + a2
+/// eps u^{n-1})/dt [N/m3]. `past` is the last term alone.
+template <int dim>
+SEEDFLOW_INLINE Lanes past_momentum(const StepCoefficients& c, const FlowFields<dim>& fields, std::size_t k,
+                                    int d) {
+  return c.density / c.time.dt *
+         (c.time.old * fields.eps_old[k] * fields.u_old[k * dim + d] +
+          c.time.older * fields.eps_older[k] * fields.u_older[k * dim + d]);
+}
+template <int dim>
+SEEDFLOW_INLINE Lanes subscale_terms(const StepCoefficients& c, const FlowFields<dim>& fields, std::size_t k,
+                                     int d, Lanes share, Lanes g) {
+  if (!c.dynamic_subscales) return share * g;
+  return share * g - fields.source[k * dim + d] + past_momentum(c, fields, k, d);
+}
+
+/// Nodal values of the projection of subscale_terms / M.
+template <int dim, int degree>
+SEEDFLOW_INLINE void gather_projected(const NodalSpace<dim, degree>& space, const StepCoefficients& c,
+                                      const FlowFields<dim>& fields, std::size_t group, int d, Lanes* y) {
+  constexpr int n = NodalSpace<dim, degree>::n;
+  space.gather(fields.y[d], group, y);
+  if (!c.dynamic_subscales) return;
+  Lanes z[n];
+  space.gather(fields.z[d], group, z);
+  for (int i = 0; i < n; ++i) y[i] += z[i];
+}
+
 }  // namespace seedflow

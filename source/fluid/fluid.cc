@@ -1,5 +1,6 @@
 #include "seedflow/fluid/fluid.h"
 
+#include "cell_point.h"
 #include "fluid_state.h"
 
 namespace seedflow {
@@ -13,6 +14,8 @@ Fluid<dim, degree>::Implementation::Implementation(const FluidParameters& p, Dom
   coefficients.density = p.density;
   coefficients.viscosity = p.viscosity;
   coefficients.model_a = p.formulation == "A";
+  coefficients.dynamic_subscales = p.subscales == "dynamic";
+  coefficients.full_stress = p.viscous_stress == "full";
   coefficients.stabilization = p.pressure_stabilization;
   coefficients.upwinding = p.streamline_upwinding;
   coefficients.degree = degree;
@@ -25,6 +28,8 @@ void Fluid<dim, degree>::Implementation::set_up() {
   boundary = std::make_unique<BoundaryData<dim, degree>>(*space, domain, conditions);
   for (int d = 0; d < dim; ++d)
     for (NodalVector* v : {&fields.u[d], &fields.y[d], &u_before[d], &rhs[d]}) space->initialize(*v);
+  if (coefficients.dynamic_subscales)
+    for (NodalVector& z : fields.z) space->initialize(z);
   for (NodalVector* v : {&fields.p, &fields.phi, &phi_before, &scalar_rhs, &mass_defect})
     space->initialize(*v);
   for (PointField* f : {&fields.eps, &fields.eps_old, &fields.eps_older}) f->set_uniform(1.0);
@@ -58,6 +63,25 @@ void Fluid<dim, degree>::Implementation::restart_from_nodal_velocity() {
       }
     }
   steps_since_start = 0;
+}
+
+template <int dim, int degree>
+std::pair<dealii::Tensor<1, dim>, double> Fluid<dim, degree>::Implementation::momentum_and_flow() const {
+  Lanes sum[dim + 1] = {};
+  for (std::size_t group = 0; group < space->n_groups; ++group)
+    for (int q = 0; q < n_q; ++q) {
+      const std::size_t k = group * n_q + q;
+      const Lanes mass = coefficients.density * fields.eps_old[k] * space->weight(group, q);
+      const Lanes* u = &fields.u_old[k * dim];
+      for (int d = 0; d < dim; ++d) sum[d] += mass * u[d];
+      sum[dim] += mass * length<dim>(u);
+    }
+  double total[dim + 1];
+  for (int d = 0; d <= dim; ++d) total[d] = lane_sum(sum[d]);
+  MPI_Allreduce(MPI_IN_PLACE, total, dim + 1, MPI_DOUBLE, MPI_SUM, domain.communicator());
+  Vector momentum;
+  for (int d = 0; d < dim; ++d) momentum[d] = total[d];
+  return {momentum, total[dim]};
 }
 
 template <int dim, int degree>

@@ -21,6 +21,8 @@ struct Fluid<dim, degree>::Implementation {
   void set_up();
   /// Sets u_old from the nodal velocity, forgets older history.
   void restart_from_nodal_velocity();
+  /// int rho eps u and int rho eps |u| at the present time [N s], all ranks.
+  std::pair<Vector, double> momentum_and_flow() const;
 
   // fluid_step.cc
   void advance(double dt, const Exchange<dim>& exchange);

@@ -77,7 +77,32 @@ template <int dim, int degree>
 void Fluid<dim, degree>::Implementation::solve_momentum() {
   {
     const CpuTimer timer(statistics.momentum_assembly);
-    project_pressure_gradient(*space, coefficients, fields);
+    for (int d = 0; d < dim; ++d) {
+      // First guess: extrapolated. Its ghosts are dropped while it is written.
+      fields.u[d].zero_out_ghost_values();
+      u_before[d].zero_out_ghost_values();
+      if (steps_since_start > 1) {
+        u_before[d].sadd(coefficients.time.extrapolate_older, coefficients.time.extrapolate_old, fields.u[d]);
+        u_before[d].swap(fields.u[d]);
+      } else {
+        u_before[d] = fields.u[d];
+      }
+    }
+    boundary->set_velocity(time + coefficients.time.dt, fields.u);
+    if (coefficients.full_stress)
+      for (auto& u : fields.u) {
+        u.update_ghost_values();
+        space->set_constrained(u);
+      }
+    project_explicit_terms(*space, coefficients, fields);
+    if (coefficients.dynamic_subscales) {
+      // The past is of the kind -M u: where the velocity is given, so is its projection.
+      boundary->set_velocity(time + coefficients.time.dt, fields.z, -1.0);
+      for (auto& z : fields.z) {
+        z.update_ghost_values();
+        space->set_constrained(z);
+      }
+    }
     assemble_momentum(*space, coefficients, fields, *momentum_matrix, rhs,
                       boundary->has_open_side ? &mass_defect : nullptr);
     // Momentum carried through open sides: the outflow of each node times its velocity.
@@ -93,20 +118,10 @@ void Fluid<dim, degree>::Implementation::solve_momentum() {
   const NodalVector* b[dim];
   const std::vector<char>* fixed[dim];
   for (int d = 0; d < dim; ++d) {
-    // First guess: extrapolated. Its ghosts are dropped while it is written.
-    fields.u[d].zero_out_ghost_values();
-    u_before[d].zero_out_ghost_values();
-    if (steps_since_start > 1) {
-      u_before[d].sadd(coefficients.time.extrapolate_older, coefficients.time.extrapolate_old, fields.u[d]);
-      u_before[d].swap(fields.u[d]);
-    } else {
-      u_before[d] = fields.u[d];
-    }
     x[d] = &fields.u[d];
     b[d] = &rhs[d];
     fixed[d] = &boundary->velocity_fixed[d];
   }
-  boundary->set_velocity(time + coefficients.time.dt, fields.u);
   momentum_preconditioner->build(*momentum_matrix, space->constrained, false);
   statistics.momentum_iterations =
       stabilized_biconjugate_gradients(*momentum_matrix, *momentum_preconditioner, dim, fixed, x, b,

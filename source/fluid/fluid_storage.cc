@@ -7,6 +7,7 @@
 #include <istream>
 #include <ostream>
 
+#include "cell_point.h"
 #include "fluid_state.h"
 
 namespace seedflow {
@@ -62,6 +63,7 @@ void Fluid<dim, degree>::refine(
     const std::function<std::vector<double>(const QuadratureLayout<dim>&)>& void_fraction_on) {
   auto& s = *implementation;
   auto& mesh = s.domain.triangulation();
+  const auto before = s.momentum_and_flow();
   mesh.prepare_coarsening_and_refinement();
   std::vector<const NodalVector*> moved;
   for (auto& u : s.fields.u) moved.push_back(&u);
@@ -85,6 +87,19 @@ void Fluid<dim, degree>::refine(
   s.load(void_fraction_on ? void_fraction_on(s.space->layout) : std::vector<double>(), 1.0, s.fields.eps_old,
          s.fields.eps_old);
   s.fields.eps_older = s.fields.eps_old;
+
+  // Interpolation changes the momentum a little. What is missing is given back to the air in proportion to
+  // its speed; the next projection makes mass exact again.
+  const auto after = s.momentum_and_flow();
+  if (!(after.second > 0)) return;
+  for (std::size_t k = 0; k < s.space->n_groups * s.n_q; ++k) {
+    Lanes u[dim];
+    for (int d = 0; d < dim; ++d) u[d] = s.fields.u_old[k * dim + d];
+    const Lanes speed = length<dim>(u);
+    for (int d = 0; d < dim; ++d)
+      s.fields.u_older.at(k * dim + d) = s.fields.u_old.at(k * dim + d) =
+          u[d] + (before.first[d] - after.first[d]) / after.second * speed;
+  }
 }
 
 template <int dim, int degree>

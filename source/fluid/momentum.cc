@@ -3,14 +3,18 @@
 namespace seedflow {
 
 template <int dim, int degree>
-void project_pressure_gradient(const NodalSpace<dim, degree>& space, const StepCoefficients& c,
-                               FlowFields<dim>& fields) {
+void project_explicit_terms(const NodalSpace<dim, degree>& space, const StepCoefficients& c,
+                            FlowFields<dim>& fields) {
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   NodalVector denominator(fields.p);
   denominator = 0;
-  for (auto& y : fields.y) {
-    y.zero_out_ghost_values();
-    y = 0;
+  std::vector<NodalVector*> results;
+  for (int d = 0; d < dim; ++d) results.push_back(&fields.y[d]);
+  if (c.dynamic_subscales)
+    for (int d = 0; d < dim; ++d) results.push_back(&fields.z[d]);
+  for (NodalVector* v : results) {
+    v->zero_out_ghost_values();
+    *v = 0;
   }
   fields.p.update_ghost_values();
   for (std::size_t group = 0; group < space.n_groups; ++group) {
@@ -26,29 +30,35 @@ void project_pressure_gradient(const NodalSpace<dim, degree>& space, const StepC
     }
     // Unused lanes repeat a cell with weight zero; they must not divide by it.
     mean = volume > broadcast(0.0) ? mean / volume : m[0];
-    Lanes force[dim][n] = {}, mass[n] = {};
+    Lanes load[2 * dim][n] = {}, mass[n] = {};
     for (int q = 0; q < n_q; ++q) {
       const CellPoint<dim> at(space, group, q);
       const std::size_t k = group * n_q + q;
-      Lanes g[dim];
+      Lanes g[dim], value[2 * dim];
       gradient(space, at, q, p, g);
-      const Lanes weight_m = (degree == 1 ? m[q] : mean) * at.weight;
-      const Lanes weight_g = weight_m * c.share(fields.eps[k]) / m[q];
+      const Lanes weight_m = (degree == 1 ? m[q] : mean) * at.weight, weight = weight_m / m[q];
+      for (int d = 0; d < dim; ++d) {
+        value[d] = weight * c.share(fields.eps[k]) * g[d];
+        if (!c.dynamic_subscales) continue;
+        value[d] -= weight * fields.source[k * dim + d];
+        value[dim + d] = weight * past_momentum(c, fields, k, d);
+      }
+      const int n_values = c.dynamic_subscales ? 2 * dim : dim;
       for (int i = 0; i < n; ++i) {
         mass[i] += space.shape.test[q][0][i] * weight_m;
-        for (int d = 0; d < dim; ++d) force[d][i] += space.shape.test[q][0][i] * (weight_g * g[d]);
+        for (int v = 0; v < n_values; ++v) load[v][i] += space.shape.test[q][0][i] * value[v];
       }
     }
     space.scatter(mass, group, denominator);
-    for (int d = 0; d < dim; ++d) space.scatter(force[d], group, fields.y[d]);
+    for (std::size_t v = 0; v < results.size(); ++v) space.scatter(load[v], group, *results[v]);
   }
   denominator.compress(dealii::VectorOperation::add);
-  for (auto& y : fields.y) {
-    y.compress(dealii::VectorOperation::add);
+  for (NodalVector* v : results) {
+    v->compress(dealii::VectorOperation::add);
     for (std::uint32_t i = 0; i < space.structure->n_owned(); ++i)
-      if (!space.constrained[i]) y.local_element(i) /= denominator.local_element(i);
-    y.update_ghost_values();
-    space.set_constrained(y);
+      if (!space.constrained[i]) v->local_element(i) /= denominator.local_element(i);
+    v->update_ghost_values();
+    space.set_constrained(*v);
   }
 }
 
@@ -68,7 +78,10 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
   for (std::size_t group = 0; group < space.n_groups; ++group) {
     Lanes p[n], y[dim][n];
     space.gather(fields.p, group, p);
-    for (int d = 0; d < dim; ++d) space.gather(fields.y[d], group, y[d]);
+    for (int d = 0; d < dim; ++d) gather_projected(space, c, fields, group, d, y[d]);
+    Lanes u[dim][n];
+    if (c.full_stress)
+      for (int d = 0; d < dim; ++d) space.gather(fields.u[d], group, u[d]);
 
     Lanes mass[n_q], carry[n_q], react[n_q], upwind[n_q], viscous[n_q][dim][dim], w_ref[n_q][dim];
     Lanes load[dim][n_q][dim + 1], outflow[n_q][dim + 1];
@@ -99,12 +112,27 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
       gradient(space, at, q, p, g);
       for (int d = 0; d < dim; ++d) {
         const Lanes projected = shape.interpolate(q, 0, y[d]);
-        const Lanes felt = share * g[d] * (1.0 - theta) + m * theta * projected;
-        const Lanes f =
-            at.weight * (fields.source[k * dim + d] - felt -
-                         rate * (old * fields.u_old[k * dim + d] + older * fields.u_older[k * dim + d]));
+        const Lanes terms = subscale_terms(c, fields, k, d, share, g[d]);
+        Lanes f = -(terms * (1.0 - theta) + m * theta * projected);
+        if (!c.dynamic_subscales) f += fields.source[k * dim + d] - past_momentum(c, fields, k, d);
+        f *= at.weight;
         load[d][q][0] = f;
         for (int e = 0; e < dim; ++e) load[d][q][1 + e] = upwind[q] * w_ref[q][e] * f;
+      }
+      if (c.full_stress) {
+        Lanes slope[dim][dim], divergence{};
+        for (int d = 0; d < dim; ++d) {
+          gradient(space, at, q, u[d], slope[d]);
+          divergence += slope[d][d];
+        }
+        for (int d = 0; d < dim; ++d) {
+          Lanes stress[dim], reference[dim];
+          for (int a = 0; a < dim; ++a)
+            stress[a] =
+                -c.viscosity * eps * at.weight * (slope[a][d] - (a == d ? 2.0 / 3.0 : 0.0) * divergence);
+          at.to_reference(stress, reference);
+          for (int e = 0; e < dim; ++e) load[d][q][1 + e] += reference[e];
+        }
       }
       outflow[q][0] = -at.weight * (time.now * eps + old + older) / time.dt;
       for (int e = 0; e < dim; ++e) outflow[q][1 + e] = at.weight * eps * w_ref[q][e];
@@ -147,8 +175,8 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
 }
 
 #define SEEDFLOW_MOMENTUM(dim, degree)                                                                       \
-  template void project_pressure_gradient(const NodalSpace<dim, degree>&, const StepCoefficients&,           \
-                                          FlowFields<dim>&);                                                 \
+  template void project_explicit_terms(const NodalSpace<dim, degree>&, const StepCoefficients&,              \
+                                       FlowFields<dim>&);                                                    \
   template void assemble_momentum(const NodalSpace<dim, degree>&, const StepCoefficients&, FlowFields<dim>&, \
                                   SparseMatrix&, FlowFields<dim>::Components&, NodalVector*);
 SEEDFLOW_MOMENTUM(2, 1)

@@ -8,6 +8,10 @@ void FluidParameters::declare(Parameters& p) {
   p.number("Dynamic viscosity", viscosity, "Pa s", Range::positive(), "Dynamic viscosity of the air.");
   p.choice("Formulation", formulation, {"A", "B"},
            "A: air and seeds share the pressure gradient by volume; B: all of it acts on the air.");
+  p.choice(
+      "Viscous stress", viscous_stress, {"laplacian", "full"},
+      "laplacian: eps mu grad u, which gives the same flow where eps mu is uniform; full: eps mu (grad u + "
+      "(grad u)^T - 2/3 div u), the added part of the extrapolated velocity.");
   p.text(
       "Boundary conditions", boundary_conditions,
       "Entries `side: type, values` separated by semicolons. Types: wall; moving wall, u; velocity inlet, u; "
@@ -16,6 +20,12 @@ void FluidParameters::declare(Parameters& p) {
       "`*` stands for all sides not named.");
   p.number("Pressure stabilization", pressure_stabilization, "1", Range::between(0, 1),
            "Factor on the stabilisation of the pressure by orthogonal subscales.");
+  p.choice(
+      "Subscales", subscales, {"quasi-static", "dynamic"},
+      "What the elements cannot hold of the velocity. quasi-static: the answer to the pressure gradient, "
+      "as it stabilises the pressure. dynamic: the answer to all forces, with a memory (Codina et al. 2007, "
+      "doi:10.1016/j.cma.2007.01.002), so that a force put into one cell moves that cell as it would with "
+      "one velocity per cell (finite volumes).");
   p.number("Streamline upwinding", streamline_upwinding, "1", Range::between(0, 10),
            "Factor on the SUPG time scale.");
   const auto solver = p.section("Linear solver", "How the linear systems of a step are solved.");

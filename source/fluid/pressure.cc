@@ -49,7 +49,7 @@ double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoe
     Lanes p[n], y[dim][n], u[dim][n];
     space.gather(fields.p, group, p);
     for (int d = 0; d < dim; ++d) {
-      space.gather(fields.y[d], group, y[d]);
+      gather_projected(space, c, fields, group, d, y[d]);
       space.gather(fields.u[d], group, u[d]);
     }
     Lanes load[n_q][dim + 1], flow{}, growth{};
@@ -57,11 +57,13 @@ double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoe
       const CellPoint<dim> at(space, group, q);
       const std::size_t k = group * n_q + q;
       const Lanes eps = fields.eps[k], theta = fields.theta[k];
-      const Lanes kappa = c.share(eps) / c.inertia(eps, fields.beta[k]);
+      const Lanes inertia = c.inertia(eps, fields.beta[k]);
       Lanes g[dim], velocity[dim];
       gradient(space, at, q, p, g);
       for (int d = 0; d < dim; ++d)
-        velocity[d] = shape.interpolate(q, 0, u[d]) - theta * (kappa * g[d] - shape.interpolate(q, 0, y[d]));
+        velocity[d] = shape.interpolate(q, 0, u[d]) -
+                      theta * (subscale_terms(c, fields, k, d, c.share(eps), g[d]) / inertia -
+                               shape.interpolate(q, 0, y[d]));
       load[q][0] = -at.weight *
                    (c.time.now * eps + c.time.old * fields.eps_old[k] + c.time.older * fields.eps_older[k]) /
                    c.time.dt;
@@ -93,7 +95,7 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
     space.gather(fields.p, group, p);
     space.gather(fields.phi, group, phi);
     for (int d = 0; d < dim; ++d) {
-      space.gather(fields.y[d], group, y[d]);
+      gather_projected(space, c, fields, group, d, y[d]);
       space.gather(fields.u[d], group, u[d]);
     }
     Lanes load[n_q][dim + 1], cell_growth{};
@@ -101,14 +103,15 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
       const CellPoint<dim> at(space, group, q);
       const std::size_t k = group * n_q + q;
       const Lanes eps = fields.eps[k], theta = fields.theta[k], beta = fields.beta[k], w = at.weight;
-      const Lanes share = c.share(eps), kappa = share / c.inertia(eps, beta);
+      const Lanes share = c.share(eps), inertia = c.inertia(eps, beta), kappa = share / inertia;
       const Lanes old = c.time.old * fields.eps_old[k], older = c.time.older * fields.eps_older[k];
       Lanes g[dim], g_phi[dim], velocity[dim];
       gradient(space, at, q, p, g);
       gradient(space, at, q, phi, g_phi);
       for (int d = 0; d < dim; ++d) {
-        velocity[d] = shape.interpolate(q, 0, u[d]) - kappa * g_phi[d] -
-                      theta * (kappa * g[d] - shape.interpolate(q, 0, y[d]));
+        velocity[d] =
+            shape.interpolate(q, 0, u[d]) - kappa * g_phi[d] -
+            theta * (subscale_terms(c, fields, k, d, share, g[d]) / inertia - shape.interpolate(q, 0, y[d]));
         const Lanes u_old = fields.u_old[k * dim + d], u_older = fields.u_older[k * dim + d];
         change[d] += w * rate * (c.time.now * eps * velocity[d] + old * u_old + older * u_older);
         exchange[d] += w * (fields.source[k * dim + d] - beta * velocity[d]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "seedflow/fluid/fluid.h"
@@ -16,6 +17,7 @@ struct Manufactured {
   using Point = dealii::Point<dim>;
   double density = 1.3, viscosity = 0.05, drag = 2, omega = 3, amplitude = 0.15;
   bool model_a = true;
+  std::string subscales = "quasi-static", viscous_stress = "laplacian";
 
   static constexpr double pi = 3.14159265358979323846;
 
@@ -63,8 +65,16 @@ struct Manufactured {
           [&](double s) {
             const Point a = shifted(x, d, s);
             const Vector u = velocity(a, t);
-            const Vector slope = difference([&](double r) { return velocity(shifted(a, d, r), t); }, h);
-            return eps(a, t) * (density * u[d] * u - viscosity * slope);
+            std::array<Vector, dim> slope;
+            for (int e = 0; e < dim; ++e)
+              slope[e] = difference([&](double r) { return velocity(shifted(a, e, r), t); }, h);
+            Vector stress = slope[d];
+            if (viscous_stress == "full")
+              for (int e = 0; e < dim; ++e) {
+                stress[e] += slope[e][d];
+                stress[d] -= 2.0 / 3.0 * slope[e][e];
+              }
+            return Vector(eps(a, t) * (density * u[d] * u - viscosity * stress));
           },
           h);
       f[d] += (model_a ? eps(x, t) : 1.0) *
@@ -78,6 +88,8 @@ struct Manufactured {
     p.density = density;
     p.viscosity = viscosity;
     p.formulation = model_a ? "A" : "B";
+    p.subscales = subscales;
+    p.viscous_stress = viscous_stress;
     p.pressure_tolerance = 1e-11;
     return p;
   }

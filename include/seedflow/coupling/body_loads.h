@@ -29,9 +29,10 @@ struct AirProperties {
 /// From the air at the bodies to the forces on them: asks every effect of the run.
 ///
 /// A drag law wants the air as if the body were absent. With the Gaussian exchange kernel the body's own
-/// steady disturbance is removed before any effect sees the air (effects/regularised_disturbance.h):
-///   u - v = (<u> - v) / (1 + eps_p / 3 - k M / (mu s)),   u undisturbed, <u> averaged, k the drag
-///   coefficient at u - v.
+/// disturbance is removed before any effect sees the air (effects/regularised_disturbance.h), <u> averaged, u
+/// undisturbed:
+///   steady      u - v = (<u> - v) / (1 + eps_p / 3 - k M / (mu s)),  k the drag coefficient at u - v,
+///   transient   u - v = (<u> - u' - v) / (1 + eps_p / 3),  u' from the record of forces and path.
 /// k is that of the last step: at a steady speed the equation is met, and every step needs one evaluation.
 class BodyLoads {
  public:
@@ -40,10 +41,14 @@ class BodyLoads {
 
   /// \param kernel_width standard deviation of the Gaussian [m]; `displacement`: whether the void fraction,
   /// spread by the same Gaussian, moves the air too.
-  void remove_self_disturbance(double kernel_width, bool displacement) {
+  /// `with_memory`: the transient disturbance, else the steady one.
+  void remove_self_disturbance(double kernel_width, bool displacement, bool with_memory) {
     sigma = kernel_width;
     displaces = displacement;
+    transient = with_memory;
   }
+  /// What the air received from each body during the last step [N]; for the transient disturbance.
+  void remember(const std::vector<Vec3>& force_on_air) { given = force_on_air; }
   void confine(double vessel_diameter) { tube = vessel_diameter; }
 
   /// Fills force[b] for every body: the drag coefficient refers to the averaged (disturbed) velocity, so that
@@ -64,15 +69,21 @@ class BodyLoads {
  private:
   /// Undisturbed over averaged slip.
   double slip_amplification(double own_share, double drag, double slip_speed) const;
+  /// Velocity that body b has given to the air where it is now, by its record up to `time` [m/s].
+  Vec3 induced_velocity(std::size_t b, const Vec3& velocity, double time);
 
   EffectSet& effects;
   AirProperties air;
   Vec3 gravity;
   double sigma = 0, tube = 1e300;
-  bool displaces = false;
+  bool displaces = false, transient = false;
   std::vector<double> last_drag;    ///< k of the laws at the last step, for the self-disturbance [kg/s]
   std::vector<double> last_slip;    ///< undisturbed slip of the last step [m/s]
   std::vector<Vec3> last_velocity;  ///< for the acceleration [m/s]
+  std::vector<Vec3> given;          ///< to the air during the last step [N]
+  std::vector<Vec3> path;           ///< in a frame that moves with the undisturbed air [m]
+  std::vector<Vec3> last_air;       ///< undisturbed velocity of the air at the last step [m/s]
+  std::vector<std::vector<double>> record;  ///< of TransientSelfVelocity
   double last_time = 0;
 };
 

@@ -15,7 +15,7 @@ struct CouplingParameters {
   int samples = 10;                      ///< Eq. 5: sample points along a sub-sphere's diameter
   std::string solid_volume = "seed";     ///< volume taken from the air: seed | sub-spheres
   std::string buoyancy_volume = "seed";  ///< volume of the pressure-gradient force: seed | sub-spheres | none
-  std::string undisturbed_velocity = "oseen";  ///< none | oseen
+  std::string undisturbed_velocity = "oseen";  ///< none | oseen | transient
   bool two_way = true;                         ///< false: the air does not feel the seeds
   double lowest_void_fraction = 0.05;          ///< the run stops below [1]
 

@@ -37,7 +37,8 @@ class BoundaryData {
   bool has_open_side = false;  ///< anywhere, on any rank
   bool is_inlet(int side) const;
 
-  void set_velocity(double time, std::array<NodalVector, dim>& u) const;  ///< owned nodes
+  /// Writes `factor` times the given velocities into owned nodes.
+  void set_velocity(double time, std::array<NodalVector, dim>& u, double factor = 1) const;
   void set_pressure(double time, NodalVector& p) const;
 
   /// y_i -= factor oint eps u.n q_i over sides of given velocity, u the nodal interpolant, eps extrapolated

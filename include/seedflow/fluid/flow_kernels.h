@@ -19,16 +19,19 @@ struct FlowFields {
   PointField source{0.0};                             ///< drag source + force [N/m3]
   PointField u_old{0.0}, u_older{0.0};                ///< velocities that satisfy mass [m/s]
   PointField theta{0.0};                              ///< pressure stabilisation, set by assemble_momentum
-  Components u;                                       ///< u~ [m/s]
-  Components y;                                       ///< projection of kappa grad p [m/s]
-  NodalVector p, phi;                                 ///< old pressure and its increment [Pa]
+  Components u;        ///< u~; extrapolated before the momentum is solved [m/s]
+  Components y;        ///< projection of kappa grad p [m/s], see unresolved()
+  Components z;        ///< dynamic subscales only: projection of the past [m/s]
+  NodalVector p, phi;  ///< old pressure and its increment [Pa]
 };
 
-/// y = (int c grad p q_i) / (int M q_i). For degree > 1, where shape functions change sign, M is taken as its
-/// mean over each cell in both integrals.
+/// y = (int c grad p q_i) / (int M q_i), and with dynamic subscales
+/// y = (int (c grad p - S - f) q_i) / (int M q_i),  z = (int rho (a1 eps u^n + a2 eps u^{n-1})/dt q_i) / (int
+/// M q_i). For degree > 1, where shape functions change sign, M is taken as its mean over each cell in all
+/// integrals.
 template <int dim, int degree>
-void project_pressure_gradient(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
-                               FlowFields<dim>& fields);
+void project_explicit_terms(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
+                            FlowFields<dim>& fields);
 
 /// The momentum equation for u~: matrix (one for all components), right-hand sides, and, if `mass_defect` is
 /// not null, int eps w.grad q_i - int q_i d(eps)/dt of the extrapolated velocity w, which on open sides is

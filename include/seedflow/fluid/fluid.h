@@ -24,8 +24,8 @@ struct MassBalance {
   double largest = 0;  ///< max_i |R_i| / flow
   double total = 0;    ///< |sum_i R_i| / flow
   /// The flow through the domain [m^dim/s]: the largest of the inflow through the sides, the change of void
-  /// volume sum |int d(eps)/dt|, and the circulation int eps |u| / V^(1/dim). At least 1e-8 of the domain's volume
-  /// V per step: eps is known to 1e-16, so of a smaller flow no balance can be known to 1e-8.
+  /// volume sum |int d(eps)/dt|, and the circulation int eps |u| / V^(1/dim). At least 1e-8 of the domain's
+  /// volume V per step: eps is known to 1e-16, so of a smaller flow no balance can be known to 1e-8.
   double flow = 0;
 };
 
@@ -59,18 +59,20 @@ struct FluidStatistics {
 ///   d(eps)/dt + div(eps u) = 0
 ///   d(rho eps u)/dt + div(rho eps u u) = -c grad p + div(eps mu grad u) + S - beta u + f,  c = eps (A) or 1
 ///   (B)
-/// on Q_k elements for velocity and pressure, BDF2 with variable step (BDF1 first and after refinement),
-/// SUPG, and a projection implicit in the drag. With M = rho a0 eps/dt + beta and w the extrapolated velocity
-/// of the past:
+/// (or the full stress, eps mu (grad u + (grad u)^T - 2/3 div u)) on Q_k elements for velocity and pressure,
+/// BDF2 with variable step (BDF1 first and after refinement), SUPG, and a projection implicit in the drag.
+/// With M = rho a0 eps/dt + beta and w the extrapolated velocity of the past:
 ///   1. u~ (nodal) from the momentum equation with pressure gradient  g = c grad p_old - M theta (kappa grad
 ///   p_old - y)
 ///   2. u = u~ - kappa grad(phi) - theta (kappa grad p_old - y),  kappa = c/M,  phi = p - p_old
 ///      from  int eps u.grad q - oint eps u.n q - int q d(eps)/dt = 0  for every q of the pressure space.
 /// y is the nodal (lumped, M-weighted) projection of kappa grad p_old: theta times the fluctuation is the
-/// pressure stabilisation (orthogonal subscales, Codina 2001, doi:10.1016/S0168-9274(01)00053-1). u, given at
-/// the quadrature points and discontinuous between cells, is the velocity that satisfies mass; it carries
-/// seeds, enters the time derivative and feels the drag. Steps 1 + 2 sum to the momentum equation with u in
-/// time derivative and drag and the full grad p: so the momentum budget closes whatever theta is.
+/// pressure stabilisation (orthogonal subscales, Codina 2001, doi:10.1016/S0168-9274(01)00053-1). With
+/// dynamic subscales (Codina et al. 2007, doi:10.1016/j.cma.2007.01.002) the forces and the past of u are
+/// treated like the pressure gradient, so that u keeps what the nodal u~ cannot hold. u, given at the
+/// quadrature points and discontinuous between cells, is the velocity that satisfies mass; it carries seeds,
+/// enters the time derivative and feels the drag. Steps 1 + 2 sum to the momentum equation with u in time
+/// derivative and drag and the full grad p: so the momentum budget closes whatever theta is.
 template <int dim, int degree = 1>
 class Fluid {
  public:

@@ -13,8 +13,11 @@ struct FluidParameters {
   std::string formulation = "A";  ///< A: pressure gradient shared by air and seeds; B: all on the air
   std::string boundary_conditions = "*: wall";
 
-  double pressure_stabilization = 1;  ///< factor on theta, 0..1 (see fluid/step_coefficients.h)
-  double streamline_upwinding = 1;    ///< factor on the SUPG time scale
+  std::string viscous_stress = "laplacian";  ///< laplacian: eps mu grad u; full: with transpose and trace
+
+  double pressure_stabilization = 1;       ///< factor on theta, 0..1 (see fluid/step_coefficients.h)
+  std::string subscales = "quasi-static";  ///< quasi-static: of the pressure only; dynamic: of all forces
+  double streamline_upwinding = 1;         ///< factor on the SUPG time scale
 
   std::string backend = "trilinos";  ///< trilinos: ML and Ifpack; petsc: BoomerAMG and PETSc's ILU
   std::string momentum_preconditioner = "jacobi";  ///< jacobi, or ilu by the backend

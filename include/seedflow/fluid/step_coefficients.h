@@ -11,6 +11,7 @@ namespace seedflow {
 struct StepCoefficients {
   double density = 1, viscosity = 1;
   bool model_a = true;
+  bool dynamic_subscales = false, full_stress = false;
   double stabilization = 1, upwinding = 1;
   int degree = 1;
   TimeScheme time;
