@@ -1,5 +1,6 @@
 #include "seedflow/base/parameters.h"
 #include "seedflow/experiment/experiment.h"
+#include "seedflow/experiment/oblique_impact.h"
 #include "seedflow/experiment/settling.h"
 #include "seedflow/experiment/settling_study.h"
 #include "seedflow/experiment/settling_tank.h"
@@ -13,6 +14,8 @@ std::vector<Experiment> experiment_catalogue() {
            run_settling_study, describe_settling_study},
           {"settling tank", "a sphere in a closed tank, beside measurements", run_settling_tank,
            describe_settling_tank},
+          {"oblique impact", "a sphere against a plane at all angles, beside measurements",
+           run_oblique_impact, describe_oblique_impact, oblique_impact_observer},
           {"single seed", "one seed in a prescribed flow, in milliseconds", run_single_seed_experiment,
            describe_single_seed, single_seed_observer}};
 }
