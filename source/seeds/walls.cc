@@ -12,10 +12,7 @@ Wall::Wall(std::string name, const Vec3& point, const Vec3& normal, const Vec3& 
     : name(std::move(name)),
       surface(Plane{point, normal}),
       motion(WallMotion::constant(velocity)),
-      material(material),
-      point(point),
-      normal(normal),
-      velocity(velocity) {}
+      material(material) {}
 
 void Wall::check() {
   std::visit([&](auto& s) { s.check(name); }, surface);

@@ -23,9 +23,6 @@ struct Wall {
 
   /// Makes directions unit vectors; InputError naming the wall if shape or motion are impossible.
   void check();
-
-  // Of a plane wall that moves with a constant velocity; used until contacts work on surfaces.
-  Vec3 point, normal, velocity;
 };
 
 /// All places of the wall within `reach` [m] of x at this time, in the lab frame, added to `out`. With a
