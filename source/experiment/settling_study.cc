@@ -123,6 +123,8 @@ void apply(const SettlingCase& c, SimulationParameters& p) {
     p.coupling.void_fraction_kernel = "sampled";
     p.coupling.solid_volume = "sub-spheres";
     p.coupling.undisturbed_velocity = "none";
+    // One velocity per cell, as in the paper's finite volumes.
+    p.air.subscales = "dynamic";
     p.effects["Drag"].set_choice("Law", "As printed");
   }
   if (c.buoyancy == "none") p.effects["Pressure gradient"].set_strength(0);
