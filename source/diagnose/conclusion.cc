@@ -9,8 +9,9 @@ namespace seedflow {
 namespace {
 
 constexpr double sure = 4.6;          ///< ln 99: odds at which an explanation is named
+constexpr double surer = 12;          ///< against a law that was made up for the data
 constexpr double sure_of_more = 2.3;  ///< ln 10: against an explanation that adds to the best one
-constexpr double largest_rest = 2.0;  ///< smooth discrepancy an explanation may leave [uncertainties]
+constexpr double largest_rest = 2.0;  ///< chi2/n by the stated uncertainties that an explanation may leave
 
 double squared(double x) {
   return x * x;
@@ -25,12 +26,12 @@ std::string rounded(double value, int digits = 2) {
 /// A smooth rest beyond the stated uncertainties, of which the data are sure; or inputs strained beyond
 /// belief.
 bool leaves_a_rest(const Weighed& w) {
-  return (w.noise.discrepancy > largest_rest && w.score - w.score_as_stated > sure) ||
+  return (w.noise.discrepancy > 0 && w.chi2_as_stated > largest_rest && w.score - w.score_as_stated > sure) ||
          chi2_tail(w.fit.chi2, w.fit.points) < 1e-5;
 }
 
 std::string rest_in_words(const Weighed& w) {
-  if (w.noise.discrepancy > largest_rest)
+  if (w.noise.discrepancy > 0)
     return "leaves a smooth rest of " + rounded(w.noise.discrepancy) + " standard uncertainties";
   return "strains the inputs beyond their uncertainties (chi2/n " + rounded(w.fit.chi2 / w.fit.points) + ")";
 }
@@ -104,7 +105,9 @@ Tried* Conclusion::decide(std::vector<Tried>& tried, Diagnosis& answer) {
   // What has passed the gate is opened again only for a sure explanation.
   const auto likeliest = std::find_if(
       tried.begin(), tried.end(), [](const Tried& t) { return t.trained.possible && believable(t.trained); });
-  const bool reopened = likeliest->total() > nothing.total() + sure && likeliest->trained.noise.as_stated();
+  const bool law_wanted = score_of_law > nothing.total() + sure;
+  const bool reopened =
+      law_wanted || (likeliest->total() > nothing.total() + sure && likeliest->trained.noise.as_stated());
   if (gate.passes() && !reopened) {
     answer.noise_scale = 1;
     LinearModel exact = nothing.trained.linear;
@@ -130,9 +133,15 @@ Tried* Conclusion::decide(std::vector<Tried>& tried, Diagnosis& answer) {
     if (tried[i].trained.possible && believable(tried[i].trained)) list.push_back(i);
   Tried& best = tried[list[0]];
   answer.noise_scale = std::hypot(best.trained.noise.white_scale, best.trained.noise.discrepancy);
-  if (leaves_a_rest(best.trained)) {
+  // A law that is free in direction and power must beat a published effect clearly.
+  const bool flexible = score_of_law > best.total() + (best.trained.what.set.empty() ? sure : surer);
+  if (flexible)
+    answer.remarks.push_back("A law outside the catalogue explains the data better than \"" +
+                             words(best.trained.what) + "\", by a factor of e^" +
+                             rounded(score_of_law - best.total(), 3) + ".");
+  if (flexible || leaves_a_rest(best.trained)) {
     answer.verdict = Verdict::not_in_catalogue;
-    if (!is_nothing(best))
+    if (!is_nothing(best) && leaves_a_rest(best.trained))
       answer.remarks.push_back("\"" + words(best.trained.what) + "\" comes nearest but " +
                                rest_in_words(best.trained) + ".");
     return &nothing;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "conclusion.h"
+#include "law_search.h"
 #include "seedflow/base/error.h"
 #include "seedflow/base/units.h"
 #include "seedflow/diagnose/experiment_design.h"
@@ -219,6 +220,14 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
 
   const Adequacy gate = adequacy(noise, nothing, split, answer);
   Conclusion conclusion{model, responses, weighing, noise, split, gate, z};
+  if (!frugal && LawSearch::possible(model)) {
+    const auto nothing_missing = std::find_if(tried.begin(), tried.end(), [](const Tried& t) {
+      return t.trained.what.set.empty() && t.trained.what.nuisance < 0;
+    });
+    const auto library =
+        LawSearch(model, responses, weighing, noise, split).library(nothing_missing->trained.noise);
+    if (!library.empty()) conclusion.score_of_law = library.front().score;
+  }
   Tried* winner = conclusion.decide(tried, answer);
   if (winner && !winner->trained.what.set.empty() && !split.has_held_out)
     conclusion.cross_validate(*winner, tried, answer);

@@ -94,7 +94,7 @@ Weighed Weighing::weigh(const Hypothesis& what, const std::vector<bool>& use, bo
       linear = linearise(what, amplitude, joint);
     }
     const double score = now.log_evidence - price(what) - (variant.as_stated() ? 0.0 : price_of_noise);
-    if (variant.as_stated()) best.score_as_stated = score;
+    if (variant.as_stated()) best.score_as_stated = score, best.chi2_as_stated = now.chi2 / now.points;
     if (score <= best.score) continue;
     best.score = score;
     best.noise = variant;

@@ -20,6 +20,7 @@ struct Weighed {
   bool possible = true;             ///< its runs succeeded
   double score = -1e300;            ///< log evidence less the prices of multiplicity and of unstated noise
   double score_as_stated = -1e300;  ///< with the noise as stated
+  double chi2_as_stated = 0;        ///< per point, with the noise as stated
   NoiseVariant noise;               ///< the best
   std::vector<double> amplitude, deviation;  ///< of the candidates, with standard deviations
   LinearModel linear;                        ///< about the fitted amplitudes

@@ -1,0 +1,199 @@
+#include "law_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seedflow/base/error.h"
+
+namespace seedflow {
+
+namespace {
+
+const std::string head = "Effects/Inferred law/";
+constexpr double probe = 0.02;  ///< coefficient of the terms of the library, small enough to be linear
+/// Prior standard deviations: coefficients in units of drag or weight, exponents.
+constexpr double coefficient_deviation = 0.5, exponent_deviation = 2;
+
+/// Of a law against nothing missing: rare (odds of an effect), and one of many.
+double price(bool has_group) {
+  const double laws = Law::n_directions * (has_group ? Law::n_groups : 1);
+  return std::log(laws / Weighing::odds);
+}
+
+}  // namespace
+
+const char* const Law::directions[] = {"Slip",      "Gravity",    "x",      "y",      "z",
+                                       "Spin lift", "Shear lift", "Trap x", "Trap y", "Trap z"};
+const char* const Law::groups[] = {"Reynolds number", "Spin ratio",     "Wall ratio",
+                                   "Tube ratio",      "Solid fraction", "shear Reynolds number"};
+
+std::string Law::reference() const {
+  const std::string name = directions[direction];
+  if (name == "Slip") return "drag";
+  if (name.find("lift") != std::string::npos) return "Stokes drag";
+  return name.rfind("Trap", 0) == 0 ? "weight per diameter of distance" : "weight";
+}
+
+bool LawSearch::possible(const ObservableModel& model) {
+  try {
+    model.base_value(head + "Strength", 0);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+LawSearch::LawSearch(ObservableModel& model, Responses& responses, Weighing& weighing, const DataNoise& noise,
+                     const Split& split)
+    : model(model), responses(responses), weighing(weighing), noise(noise), split(split) {
+  const auto& names = model.regimes();
+  if (std::find(names.begin(), names.end(), "Reynolds number") == names.end()) return;
+  const Eigen::VectorXd re = model.regime("Reynolds number");
+  double sum = 0, n = 0;
+  for (Eigen::Index i = 0; i < re.size(); ++i)
+    if (re[i] > 0) sum += std::log(re[i]), ++n;
+  // A round number, so that the library does not depend on details.
+  if (n > 0) reference_reynolds = std::pow(10.0, std::round(sum / n / std::log(10.0)));
+}
+
+Setting LawSearch::setting(const Law& law) const {
+  Setting s;
+  s.entries[head + "Strength"] = 1;
+  double scale = 1;
+  for (int g = 0; g < Law::n_groups; ++g) {
+    if (!law.has[g]) continue;
+    s.entries[head + "Exponent " + Law::groups[g]] = law.exponent[g];
+    scale *= std::pow(reference(g), -law.exponent[g]);
+  }
+  s.entries[head + "Coefficient " + Law::directions[law.direction]] = law.coefficient * scale;
+  return s;
+}
+
+LinearFit LawSearch::evaluate(const Eigen::VectorXd& value, const Eigen::MatrixXd& columns,
+                              const Eigen::VectorXd& tolerance, const NoiseVariant& variant) {
+  LinearModel linear = weighing.linearise({}, {}, true);
+  linear.residual += responses.base() - value;
+  const Eigen::Index q = linear.directions.cols();
+  linear.directions.conservativeResize(Eigen::NoChange, q + columns.cols());
+  linear.directions.rightCols(columns.cols()) = columns;
+  if (tolerance.size() > 0) {
+    linear.tolerance.conservativeResize(Eigen::NoChange, linear.tolerance.cols() + 1);
+    linear.tolerance.rightCols(1) = tolerance;
+  }
+  return fit(noise, variant, linear, split.all);
+}
+
+std::vector<LawSearch::Screened> LawSearch::library(const NoiseVariant& other) {
+  const auto response = [&](Law law) {
+    law.coefficient = probe;
+    Eigen::VectorXd d = (model.predict(setting(law)) - responses.base()) / probe;
+    for (Eigen::Index i = 0; i < d.size(); ++i)
+      if (!std::isfinite(d[i])) d[i] = 0;
+    return d;
+  };
+  std::vector<Screened> list;
+  const auto screen = [&](const Law& law, const Eigen::VectorXd& d, bool has_group) {
+    Screened best{law};
+    for (const NoiseVariant& variant : {noise_variants()[0], other}) {
+      LinearFit f = evaluate(responses.base(), coefficient_deviation * d, Eigen::VectorXd(), variant);
+      const double c = coefficient_deviation * f.mean[f.mean.size() - 1];
+      // Exponents lie between those of the library, and responses bend: a tenth of the change is tolerated.
+      f = evaluate(responses.base(), coefficient_deviation * d, 0.1 * std::abs(c) * d, variant);
+      const double score =
+          f.log_evidence - price(has_group) - (variant.as_stated() ? 0 : Weighing::price_of_noise);
+      if (score > best.score) {
+        best.score = score;
+        best.law.coefficient = coefficient_deviation * f.mean[f.mean.size() - 1];
+      }
+      if (other.as_stated()) break;
+    }
+    list.push_back(best);
+  };
+  for (int direction = 0; direction < Law::n_directions; ++direction) {
+    Law constant;
+    constant.direction = direction;
+    const Eigen::VectorXd d = response(constant);
+    if (d.cwiseAbs().maxCoeff() == 0) continue;
+    screen(constant, d, false);
+    for (int g = 0; g < Law::n_groups; ++g) {
+      Law law = constant;
+      law.has[g] = true;
+      law.exponent[g] = 1;
+      const Eigen::VectorXd first = response(law);
+      // A group that is the same everywhere (or zero) says nothing.
+      const double scale = first.norm() * d.norm();
+      if (!(scale > 0) || first.dot(d) > (1 - 1e-6) * scale) continue;
+      for (const double exponent : {-1.0, -0.5, 0.5, 1.0, 2.0}) {
+        law.exponent[g] = exponent;
+        const Eigen::VectorXd r = exponent == 1 ? first : response(law);
+        if (r.cwiseAbs().maxCoeff() > 0) screen(law, r, true);
+      }
+    }
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Screened& a, const Screened& b) { return a.score > b.score; });
+  return list;
+}
+
+LawSearch::Refined LawSearch::refine(Law law) {
+  Refined best;
+  double step_limit = 1;
+  Law trial = law;
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    std::vector<int> present;
+    for (int g = 0; g < Law::n_groups; ++g)
+      if (trial.has[g]) present.push_back(g);
+    const Eigen::VectorXd now = model.predict(setting(trial));
+    if (!now.allFinite()) break;
+    Eigen::MatrixXd columns(now.size(), 1 + static_cast<Eigen::Index>(present.size()));
+    Eigen::VectorXd centre(columns.cols());
+    {
+      Law moved = trial;
+      const double h = 0.02 * std::max(std::abs(trial.coefficient), probe);
+      moved.coefficient += h;
+      columns.col(0) = coefficient_deviation * (model.predict(setting(moved)) - now) / h;
+      centre[0] = trial.coefficient / coefficient_deviation;
+    }
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      Law moved = trial;
+      const double h = 0.02;
+      moved.exponent[present[i]] += h;
+      const auto c = static_cast<Eigen::Index>(i) + 1;
+      columns.col(c) = exponent_deviation * (model.predict(setting(moved)) - now) / h;
+      centre[c] = trial.exponent[present[i]] / exponent_deviation;
+    }
+    if (!columns.allFinite()) break;
+    // Priors are N(0, deviation^2) about zero, the linear model is about the present values.
+    const LinearFit f = evaluate(now - columns * centre, columns, Eigen::VectorXd(), noise_variants()[0]);
+    const Eigen::Index first = f.mean.size() - columns.cols();
+    if (f.log_evidence > best.log_evidence) {
+      best.log_evidence = f.log_evidence;
+      best.law = trial;
+      best.chi2 = f.chi2;
+      best.points = f.points;
+      best.deviation = {coefficient_deviation * std::sqrt(f.covariance(first, first))};
+      for (Eigen::Index i = 1; i < columns.cols(); ++i)
+        best.deviation.push_back(exponent_deviation * std::sqrt(f.covariance(first + i, first + i)));
+    }
+    double moved = 0;
+    const double limit = step_limit * (std::abs(trial.coefficient) + 0.05);
+    const double dc = std::clamp(coefficient_deviation * f.mean[first] - trial.coefficient, -limit, limit);
+    trial.coefficient += dc;
+    moved = std::abs(dc) / std::max(best.deviation[0], 1e-9);
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      const double de = std::clamp(
+          exponent_deviation * f.mean[first + 1 + static_cast<Eigen::Index>(i)] - trial.exponent[present[i]],
+          -0.5 * step_limit, 0.5 * step_limit);
+      trial.exponent[present[i]] = std::clamp(trial.exponent[present[i]] + de, -4.0, 4.0);
+      moved = std::max(moved, std::abs(de) / std::max(best.deviation[i + 1], 1e-9));
+    }
+    if (moved < 0.05) {
+      best.law = trial;
+      break;
+    }
+    step_limit *= 0.9;
+  }
+  return best;
+}
+
+}  // namespace seedflow

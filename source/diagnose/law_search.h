@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "seedflow/diagnose/selection.h"
+
+namespace seedflow {
+
+/// A law of the library: direction, coefficient at the reference values of the groups, exponents.
+struct Law {
+  static constexpr int n_groups = 6, n_directions = 10;
+  static const char* const directions[n_directions];
+  static const char* const groups[n_groups];
+
+  int direction = 0;
+  double coefficient = 0;
+  double exponent[n_groups] = {};
+  bool has[n_groups] = {};
+  /// In which unit the coefficient is: "drag", "weight", "Stokes drag".
+  std::string reference() const;
+};
+
+/// Searches laws outside the catalogue by their simulated effect. Internal to the diagnosis.
+class LawSearch {
+ public:
+  LawSearch(ObservableModel& model, Responses& responses, Weighing& weighing, const DataNoise& noise,
+            const Split& split);
+
+  /// Whether the model has the effect "Inferred law".
+  static bool possible(const ObservableModel& model);
+
+  struct Screened {
+    Law law;
+    double score = -1e300;  ///< log evidence of all conditions less the price of the search
+  };
+  /// Every direction, alone and with every group to a few powers, as far as it acts: linear response, under
+  /// the stated noise and under `other`. Best first.
+  std::vector<Screened> library(const NoiseVariant& other);
+
+  /// Gauss-Newton over coefficient and exponents with real runs.
+  struct Refined {
+    Law law;
+    double log_evidence = -1e300, chi2 = 0;
+    int points = 0;
+    std::vector<double> deviation;  ///< coefficient, then exponents of the groups it has
+  };
+  Refined refine(Law law);
+
+  Setting setting(const Law& law) const;
+  double reference(int group) const { return group == 0 ? reference_reynolds : group == 5 ? 1 : 0.1; }
+
+ private:
+  LinearFit evaluate(const Eigen::VectorXd& value, const Eigen::MatrixXd& columns,
+                     const Eigen::VectorXd& tolerance, const NoiseVariant& variant);
+
+  ObservableModel& model;
+  Responses& responses;
+  Weighing& weighing;
+  const DataNoise& noise;
+  const Split& split;
+  double reference_reynolds = 10;
+};
+
+}  // namespace seedflow
