@@ -28,16 +28,14 @@ ContactLaw::ContactLaw(const Material& a, const Material& b, const ContactProper
   const double log_e = std::log(p.restitution);
   beta = -log_e / std::sqrt(log_e * log_e + M_PI * M_PI);
   static_friction = p.static_friction;
-  partial_slip = p.tangential_model == "Mindlin with partial slip";
+  if (p.tangential_model == "Mindlin with partial slip") partial_slip = p.partial_slip;
 
   // k_n = 4/3 E* a and k_t = 8 G* a make both damping coefficients multiples of sqrt(m* a).
   tangential_damping = beta * std::sqrt(80.0 / 3 * shear);
-  if (p.restitution_law == "constant")
-    normal_damping = beta * std::sqrt(20.0 / 3 * young);
-  else
-    viscous_damping = 2 * dissipative_time(a, b, p, young) * young;
+  const double viscoelastic = p.restitution_law == "viscoelastic" ? p.speed_dependence : 0;
+  normal_damping = (1 - viscoelastic) * beta * std::sqrt(20.0 / 3 * young);
+  if (viscoelastic > 0) viscous_damping = viscoelastic * 2 * dissipative_time(a, b, p, young) * young;
 
-  rolling_friction = p.rolling_friction;
   rolling_numbers = {p.rolling_friction, p.rolling_damping, p.mobilised_damping};
   if (p.rolling_friction > 0 && p.rolling_model != "none")
     rolling = p.rolling_model == "EPSD" ? Rolling::epsd : Rolling::constant_torque;
@@ -61,20 +59,6 @@ double ContactLaw::reach(double reduced_radius) const {
       break;
   }
   return 0;
-}
-
-ContactForce contact_force(const ContactLaw& law, const ContactState& state, double step, Vec3& spring) {
-  ContactKinematics<double> c;
-  c.normal = state.normal;
-  c.overlap = state.overlap;
-  c.reduced_radius = state.reduced_radius;
-  c.reduced_mass = state.reduced_mass;
-  c.velocity = state.velocity;
-  ContactMemory<double> memory;
-  memory.spring = spring;
-  const auto action = contact_action<Rolling::none, Cohesion::none>(law, c, step, memory);
-  spring = memory.spring;
-  return {action.force, action.repulsion};
 }
 
 }  // namespace seedflow

@@ -94,6 +94,7 @@ std::string MaterialTable::pair_name(const Pair& pair) const {
 }
 
 void MaterialTable::declare(Parameters& p) {
+  strengths.declare(p);
   {
     const auto section = p.section("Materials", "Of seeds and walls.");
     p.texts("Names", declared_names, "Names of the materials, each with a section below.");
@@ -174,7 +175,7 @@ void MaterialTable::apply(Dem& dem) const {
     dem.add_material(m);
   }
   for (const Pair& pair : pairs)
-    if (pair.known) dem.set_contact(pair.a, pair.b, pair.properties);
+    if (pair.known) dem.set_contact(pair.a, pair.b, pair.properties.weakened(strengths));
 }
 
 std::string MaterialTable::notice() const {

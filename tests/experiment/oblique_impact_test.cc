@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "seedflow/base/error.h"
+#include "seedflow/effects/contact_effects.h"
 #include "seedflow/output/summary.h"
 
 namespace seedflow {
@@ -49,6 +50,19 @@ TEST(ObliqueImpact, ServesAsModelOfMeasurements) {
   // 60 degrees slides throughout: 1 - mu (1 + e)/tan(60 deg).
   EXPECT_NEAR(run.observe({}, {{"tangential restitution", M_PI / 3}})[0], 1 - 0.092 * 1.98 / std::sqrt(3.0),
               1e-4);
+}
+
+// Every effect of contacts that is described has its strength among the entries; without partial slip the
+// small angles keep more of their tangential speed.
+TEST(ObliqueImpact, EffectsOfContactsHaveStrengths) {
+  const PreparedRun run = oblique_impact_observer().prepare(prm, {"Impact/Steps per contact=500"});
+  for (const EffectRecord& r : contact_effect_records()) {
+    EXPECT_EQ(r.slot, "contact");
+    EXPECT_EQ(run.value("Effects/" + r.name + "/Strength"), 1) << r.name;
+  }
+  const WantedValue wanted{"tangential restitution", 0.05};
+  EXPECT_GT(run.observe({{"Effects/Partial slip/Strength", 0.0}}, {wanted})[0],
+            run.observe({}, {wanted})[0] + 0.1);
 }
 
 TEST(ObliqueImpact, BadInputIsNamed) {

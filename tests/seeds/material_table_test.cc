@@ -6,6 +6,7 @@
 
 #include "seedflow/base/error.h"
 #include "seedflow/base/parameters.h"
+#include "seedflow/seeds/contact_law.h"
 #include "seedflow/seeds/dem.h"
 
 namespace seedflow {
@@ -78,6 +79,38 @@ TEST(MaterialTable, OwnMaterialsAndPairsReachTheDem) {
   EXPECT_DOUBLE_EQ(dem.materials()[1].shear_modulus, 28e7);
   EXPECT_EQ(read.table.pairs[1].properties.restitution, 0.7);
   expect_in(read.table.notice(), {"0.01 times", "6.3"});  // 0.01^(-2/5) = 6.31
+}
+
+// Strength 0 leaves the law without the effect, to the last bit; 0.5 halves it.
+TEST(MaterialTable, StrengthsScaleTheEffectsOfContacts) {
+  ContactProperties p;
+  p.cohesion = "JKR";
+  p.surface_energy = 0.4;
+  p.restitution_law = "viscoelastic";
+  ContactStrengths s;
+  s.adhesion = s.rolling_friction = s.speed_dependence = 0.5;
+  const Material m;
+  const ContactLaw full(m, m, p), half(m, m, p.weakened(s));
+  EXPECT_EQ(half.rolling_numbers.coefficient, 0.015);
+  EXPECT_EQ(half.cohesion_numbers.adhesion, 0.2);
+  EXPECT_DOUBLE_EQ(half.viscous_damping, 0.5 * full.viscous_damping);
+  s.adhesion = s.rolling_friction = s.speed_dependence = 0;
+  const ContactLaw none(m, m, p.weakened(s)), plain(m, m, {});
+  EXPECT_EQ(none.cohesion, Cohesion::none);
+  EXPECT_EQ(none.rolling, Rolling::none);
+  EXPECT_EQ(none.viscous_damping, 0);
+  EXPECT_EQ(none.normal_damping, plain.normal_damping);
+  p = {};
+  p.tangential_model = "Mindlin with partial slip";
+  s = {};
+  s.partial_slip = 0;
+  EXPECT_EQ(ContactLaw(m, m, p.weakened(s)).partial_slip, 0);
+  p = {};
+  p.cohesion = "capillary bridge";
+  p.surface_tension = 0.07;
+  p.bridge_volume = 1e-11;
+  s.liquid_bridges = 0;
+  EXPECT_EQ(ContactLaw(m, m, p.weakened(s)).cohesion, Cohesion::none);
 }
 
 TEST(MaterialTable, NamesFromAnOverride) {

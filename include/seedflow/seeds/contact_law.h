@@ -18,12 +18,11 @@ namespace seedflow {
 /// (Tsuji et al. 1992; Di Renzo & Di Maio 2004; EDEM's documentation for c_t). Viscoelastic restitution has
 /// c_n = 3/2 A k_n instead (restitution.h). Cohesion changes a and F_n (cohesion.h).
 struct ContactLaw {
-  double young = 0;             ///< E* [Pa]
-  double shear = 0;             ///< G* [Pa]
-  double beta = 0;              ///< damping [1], >= 0
-  double static_friction = 0;   ///< mu [1]
-  double rolling_friction = 0;  ///< mu_r [1]
-  bool partial_slip = false;    ///< softer than 8 G* a where the rim slips (partial_slip.h)
+  double young = 0;            ///< E* [Pa]
+  double shear = 0;            ///< G* [Pa]
+  double beta = 0;             ///< damping [1], >= 0
+  double static_friction = 0;  ///< mu [1]
+  double partial_slip = 0;     ///< strength in [0, 1] of the rim's slip (partial_slip.h)
   Rolling rolling = Rolling::none;
   RollingNumbers rolling_numbers;
   Cohesion cohesion = Cohesion::none;
@@ -74,7 +73,7 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   const NormalForce<Real> f = normal_force_of<cohesion>(law, c, memory.attached);
   if constexpr (cohesion != Cohesion::none) memory.attached = f.attached;
 
-  const Real damping = c.share * lane_sqrt(c.reduced_mass * f.contact_radius);
+  const Real damping = c.share * root(c.reduced_mass * f.contact_radius);
   const Real normal_speed = dot(c.velocity, c.normal);
   const Vector slip = c.velocity - normal_speed * c.normal;
   ContactAction<Real> result;
@@ -87,18 +86,18 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   const Real stiffness = 8 * law.shear * c.share * f.contact_radius;
   const Real touches = select(f.contact_radius > zero, zero + 1.0, zero);
   Vector spring = memory.spring;
-  if (cohesion == Cohesion::none && law.partial_slip) {
-    partial_slip<Real>(c, slip, normal_speed, limit / lane_max(stiffness, zero + 1e-100), step, spring,
-                       memory.attached);
+  if (cohesion == Cohesion::none && law.partial_slip > 0) {
+    partial_slip<Real>(law.partial_slip, c, slip, normal_speed, limit / lane_max(stiffness, zero + 1e-100),
+                       step, spring, memory.attached);
     memory.attached *= touches;
   } else {
     spring = turned_into_plane<Real>(spring, c.normal) + step * slip;
   }
-  const Real trial = stiffness * norm(spring);
+  const Real trial = stiffness * length<Real>(spring);
   spring = cut(trial, limit) * spring;
   Vector tangential =
       -stiffness * spring - select(trial > limit, zero, law.tangential_damping * damping) * slip;
-  tangential = cut<Real>(norm(tangential), limit) * tangential;
+  tangential = cut<Real>(length<Real>(tangential), limit) * tangential;
   memory.spring = touches * spring;
   if constexpr (cohesion == Cohesion::none)
     result.force = pushing * c.normal + tangential;
@@ -147,17 +146,5 @@ void with_models(const ContactLaw& law, const F& f) {
 inline double contact_share(int n) {
   return 1.0 / n;
 }
-
-// For callers that hold one contact at a time and no memory but the tangential spring.
-struct ContactState {
-  Vec3 normal;
-  double overlap = 0, reduced_radius = 0, reduced_mass = 0;
-  Vec3 velocity;
-};
-struct ContactForce {
-  Vec3 force;
-  double repulsion = 0;
-};
-ContactForce contact_force(const ContactLaw& law, const ContactState& state, double step, Vec3& spring);
 
 }  // namespace seedflow

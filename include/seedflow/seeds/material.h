@@ -17,6 +17,8 @@ struct Material {
   void declare(Parameters& parameters);
 };
 
+struct ContactStrengths;
+
 /// What belongs to a pair of materials. Defaults: the source paper's Table 3, seed on seed.
 struct ContactProperties {
   double restitution = 0.526;      ///< coefficient of restitution e [1], in (0, 1]
@@ -24,6 +26,8 @@ struct ContactProperties {
   double rolling_friction = 0.03;  ///< coefficient of rolling friction mu_r [1]
 
   std::string tangential_model = "Mindlin without slip";  ///< or Mindlin with partial slip
+  double partial_slip = 1;                                ///< strength of the partial slip in [0, 1]
+  double speed_dependence = 1;  ///< share of viscoelastic damping in [0, 1], if the restitution law is that
 
   std::string rolling_model = "constant torque";  ///< none | constant torque | EPSD
   double rolling_damping = 0.3;                   ///< damping ratio eta of EPSD [1]
@@ -40,6 +44,9 @@ struct ContactProperties {
   double surface_tension = 0;     ///< of the bridge's liquid [N/m]
   double contact_angle = 0;       ///< of the liquid on both bodies [rad]
   double bridge_volume = 0;       ///< liquid in one bridge [m3]
+
+  /// The same with the effects of contacts weakened; an effect of strength 0 is off.
+  ContactProperties weakened(const ContactStrengths& strengths) const;
 
   /// Inside a section of the caller's.
   void declare(Parameters& parameters);

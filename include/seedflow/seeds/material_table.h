@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "seedflow/seeds/contact_strengths.h"
 #include "seedflow/seeds/material.h"
 
 namespace seedflow {
@@ -39,6 +40,7 @@ struct MaterialTable {
   std::vector<Material> materials;
   std::vector<Pair> pairs;  ///< every unordered pair, (0, 0), (0, 1), ..., (1, 1), ...
   double shear_modulus_factor = 1;
+  ContactStrengths strengths;  ///< entries "Effects/NAME/Strength"
 
   /// Table 3: seed, photosensitive resin, transparent plexiglass.
   MaterialTable();
