@@ -199,8 +199,17 @@ TEST(Flow, RefinementKeepsFlowAndBalances) {
   FluidParameters p = m.parameters();
   Fluid<2> fluid(p, *domain, m.conditions(*domain));
   m.start(fluid, 0.1);
+  const auto momentum = [&] {
+    dealii::Tensor<1, 2> sum;
+    const auto u = fluid.velocity();
+    const auto& layout = fluid.layout();
+    for (std::size_t i = 0; i < u.size(); ++i)
+      sum += m.density * m.eps(layout.position[i], fluid.time()) * layout.JxW[i] * u[i];
+    return sum;
+  };
   for (int s = 0; s < 20; ++s) {
     if (s % 6 == 5) {
+      const auto before = momentum();
       for (const auto& cell : domain->triangulation().active_cell_iterators()) {
         if (!cell->is_locally_owned()) continue;
         if (cell->center().distance({0.1 * s / 2, 0.5}) < 0.25)
@@ -209,6 +218,7 @@ TEST(Flow, RefinementKeepsFlowAndBalances) {
           cell->set_coarsen_flag();
       }
       fluid.refine([&](const auto& layout) { return m.eps_at(layout, fluid.time()); });
+      EXPECT_LT((momentum() - before).norm(), 1e-13) << s;  // the flow's is about 1
     }
     fluid.advance(0.0125, m.exchange(fluid.layout(), fluid.time() + 0.0125));
     EXPECT_LT(fluid.mass_balance().largest, 1e-8) << s;
