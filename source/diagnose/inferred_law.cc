@@ -10,9 +10,6 @@ namespace seedflow {
 
 namespace {
 
-/// A further group must raise the evidence by this.
-constexpr double price_of_group = 1.8;  // which of six; what its exponent costs is in the evidence
-
 int only_group(const Law& law) {
   for (int g = 0; g < Law::n_groups; ++g)
     if (law.has[g]) return g;
@@ -42,21 +39,23 @@ InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& we
     if (std::find(done.begin(), done.end(), std::make_pair(law.direction, group)) != done.end()) continue;
     done.emplace_back(law.direction, group);
     const LawSearch::Refined refined = search.refine(law);
-    const double score = refined.log_evidence - (group >= 0 ? price_of_group : 0);
-    if (score > best_score) best_score = score, best = refined;
+    const double score = refined.log_evidence - refined.law.price();
+    if (!refined.deviation.empty() && score > best_score) best_score = score, best = refined;
     if (done.size() == 4) break;
   }
   // A second group, if the data want it.
   const bool poor = best_score > -1e300 && chi2_tail(best.chi2, best.points) < 1e-3;
   const Law first = best.law;
   for (int g = 0; g < Law::n_groups && poor && only_group(first) >= 0; ++g) {
-    if (first.has[g]) continue;
+    const bool varies = std::any_of(library.begin(), library.end(),
+                                    [g](const LawSearch::Screened& l) { return l.law.has[g]; });
+    if (first.has[g] || !varies) continue;
     Law law = first;
     law.has[g] = true;
     law.exponent[g] = 0.2;
     const LawSearch::Refined refined = search.refine(law);
-    const double score = refined.log_evidence - 2 * price_of_group;
-    if (score > best_score) best_score = score, best = refined;
+    const double score = refined.log_evidence - refined.law.price();
+    if (!refined.deviation.empty() && score > best_score) best_score = score, best = refined;
   }
   if (best_score <= -1e300) return found;
 

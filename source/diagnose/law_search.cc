@@ -14,12 +14,6 @@ constexpr double probe = 0.02;  ///< coefficient of the terms of the library, sm
 /// Prior standard deviations: coefficients in units of drag or weight, exponents.
 constexpr double coefficient_deviation = 0.5, exponent_deviation = 2;
 
-/// Of a law against nothing missing: rare (odds of an effect), and one of many.
-double price(bool has_group) {
-  const double laws = Law::n_directions * (has_group ? Law::n_groups : 1);
-  return std::log(laws / Weighing::odds);
-}
-
 }  // namespace
 
 const char* const Law::directions[] = {"Slip",      "Gravity",    "x",      "y",      "z",
@@ -32,6 +26,15 @@ std::string Law::reference() const {
   if (name == "Slip") return "drag";
   if (name.find("lift") != std::string::npos) return "Stokes drag";
   return name.rfind("Trap", 0) == 0 ? "weight per diameter of distance" : "weight";
+}
+
+double Law::price() const {
+  // A force fixed in space breaks the symmetry of the flow; it is less likely before anything is seen.
+  static const double of_direction[n_directions] = {0, 1, 3, 3, 3, 0, 0, 4, 4, 4};
+  double sum = std::log(n_directions / Weighing::odds) + of_direction[direction];
+  for (const bool one : has)
+    if (one) sum += std::log(static_cast<double>(n_groups));
+  return sum;
 }
 
 bool LawSearch::possible(const ObservableModel& model) {
@@ -92,7 +95,7 @@ std::vector<LawSearch::Screened> LawSearch::library(const NoiseVariant& other) {
     return d;
   };
   std::vector<Screened> list;
-  const auto screen = [&](const Law& law, const Eigen::VectorXd& d, bool has_group) {
+  const auto screen = [&](const Law& law, const Eigen::VectorXd& d) {
     Screened best{law};
     for (const NoiseVariant& variant : {noise_variants()[0], other}) {
       LinearFit f = evaluate(responses.base(), coefficient_deviation * d, Eigen::VectorXd(), variant);
@@ -100,7 +103,7 @@ std::vector<LawSearch::Screened> LawSearch::library(const NoiseVariant& other) {
       // Exponents lie between those of the library, and responses bend: a tenth of the change is tolerated.
       f = evaluate(responses.base(), coefficient_deviation * d, 0.1 * std::abs(c) * d, variant);
       const double score =
-          f.log_evidence - price(has_group) - (variant.as_stated() ? 0 : Weighing::price_of_noise);
+          f.log_evidence - law.price() - (variant.as_stated() ? 0 : Weighing::price_of_noise);
       if (score > best.score) {
         best.score = score;
         best.law.coefficient = coefficient_deviation * f.mean[f.mean.size() - 1];
@@ -114,7 +117,7 @@ std::vector<LawSearch::Screened> LawSearch::library(const NoiseVariant& other) {
     constant.direction = direction;
     const Eigen::VectorXd d = response(constant);
     if (d.cwiseAbs().maxCoeff() == 0) continue;
-    screen(constant, d, false);
+    screen(constant, d);
     for (int g = 0; g < Law::n_groups; ++g) {
       Law law = constant;
       law.has[g] = true;
@@ -126,7 +129,7 @@ std::vector<LawSearch::Screened> LawSearch::library(const NoiseVariant& other) {
       for (const double exponent : {-1.0, -0.5, 0.5, 1.0, 2.0}) {
         law.exponent[g] = exponent;
         const Eigen::VectorXd r = exponent == 1 ? first : response(law);
-        if (r.cwiseAbs().maxCoeff() > 0) screen(law, r, true);
+        if (r.cwiseAbs().maxCoeff() > 0) screen(law, r);
       }
     }
   }
@@ -175,6 +178,7 @@ LawSearch::Refined LawSearch::refine(Law law) {
       for (Eigen::Index i = 1; i < columns.cols(); ++i)
         best.deviation.push_back(exponent_deviation * std::sqrt(f.covariance(first + i, first + i)));
     }
+    if (best.deviation.empty()) break;
     double moved = 0;
     const double limit = step_limit * (std::abs(trial.coefficient) + 0.05);
     const double dc = std::clamp(coefficient_deviation * f.mean[first] - trial.coefficient, -limit, limit);

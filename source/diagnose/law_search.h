@@ -19,6 +19,8 @@ struct Law {
   bool has[n_groups] = {};
   /// In which unit the coefficient is: "drag", "weight", "Stokes drag".
   std::string reference() const;
+  /// Against nothing missing: the odds that an effect is missing, and that of all laws it is this one [nats].
+  double price() const;
 };
 
 /// Searches laws outside the catalogue by their simulated effect. Internal to the diagnosis.
