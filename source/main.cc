@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "seedflow/diagnose/benchmark_command.h"
 #include "seedflow/diagnose/command.h"
 #include "seedflow/experiment/agreement.h"
 #include "seedflow/experiment/command_line.h"
@@ -13,7 +14,7 @@ int main(int argc, char** argv) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
 
   seedflow::CommandLine command_line;
-  command_line.commands = {seedflow::diagnose_command()};
+  command_line.commands = {seedflow::diagnose_command(), seedflow::diagnosis_benchmark_command()};
   command_line.rank = static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
   return seedflow::run_in_agreement(
       MPI_COMM_WORLD, [&] { return command_line.execute(arguments, std::cout); }, std::cerr);

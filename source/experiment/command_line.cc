@@ -185,6 +185,11 @@ int CommandLine::execute(const std::vector<std::string>& arguments, std::ostream
   if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h") return help(*this, {}, out);
   Arguments rest(arguments.begin() + 1, arguments.end());
   if (is_parameter_file(arguments[0])) return run(*this, arguments, out);
+  // Names of two words first: "bench diagnose" is a command of its own.
+  if (!rest.empty())
+    for (const Command& command : commands)
+      if (command.name == arguments[0] + " " + rest[0])
+        return command.execute(*this, Arguments(rest.begin() + 1, rest.end()), out);
   for (const Command& command : all_commands(*this))
     if (command.name == arguments[0]) return command.execute(*this, rest, out);
   std::vector<std::string> names = names_of(all_commands(*this));

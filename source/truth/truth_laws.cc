@@ -9,19 +9,14 @@ double truth_drag(double re) {
   return 1 + 0.150 * std::pow(re, 0.681) + 0.407 * re / 24 * re / (re + 8710);
 }
 
-namespace {
-
-double ganser(double re, double phi) {
-  const double stokes = 1 / (1.0 / 3 + 2.0 / 3 / std::sqrt(phi));  // K1 of isometric bodies
-  const double newton = phi < 1 ? std::pow(10, 1.8148 * std::pow(-std::log10(phi), 0.5743)) : 1;  // K2
-  const double x = re * stokes * newton;
-  return (1 + 0.1118 * std::pow(x, 0.6567)) / stokes + 0.4305 * newton * re / 24 * x / (x + 3305);
-}
-
-}  // namespace
-
 double truth_shape_factor(double re, double phi) {
-  return ganser(re, phi) / ganser(re, 1);
+  const auto factor = [re](double p) {
+    const double low = std::exp(2.3288 - 6.4581 * p + 2.4486 * p * p) * std::pow(re, 0.0964 + 0.5565 * p);
+    const double limit = std::exp(4.9050 - 13.8944 * p + 18.4222 * p * p - 10.2599 * p * p * p);
+    const double half = std::exp(1.4681 + 12.2584 * p - 20.7322 * p * p + 15.8855 * p * p * p);
+    return 1 + low + re / 24 * limit / (1 + half / re);
+  };
+  return factor(phi) / factor(1);
 }
 
 double truth_crowd_factor(double re, double eps) {

@@ -6,7 +6,8 @@ namespace seedflow {
 
 /// C_D Re/24 of a sphere.
 double truth_drag(double reynolds);
-/// Drag of a body of that sphericity over that of the equal-volume sphere, both by Ganser's correlation.
+/// Drag of a body of that sphericity over that of the equal-volume sphere, both by the correlation of
+/// Haider and Levenspiel. Re > 0.
 double truth_shape_factor(double reynolds, double sphericity);
 /// Drag in a crowd of that void fraction over drag alone; reynolds of the interstitial slip.
 double truth_crowd_factor(double reynolds, double void_fraction);

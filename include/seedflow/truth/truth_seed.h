@@ -21,7 +21,9 @@ struct TruthWall {
 /// absent. Forms (the model's default in brackets):
 ///  Drag               C_D = 24/Re (1 + 0.150 Re^0.681) + 0.407/(1 + 8710/Re), Brown & Lawler (2003),
 ///                     doi:10.1061/(ASCE)0733-9372(2003)129:3(222) [Schiller-Naumann]
-///  Nonspherical drag  Ganser (1993), doi:10.1016/0032-5910(93)80051-B [Haider-Levenspiel]
+///  Nonspherical drag  the same law, coded apart: published forms of it differ by 20 to 40 %
+///                     at Re 20 (Hoelzer & Sommerfeld 2008, Chien 1994), more than the drag is known
+///                     [Haider-Levenspiel]
 ///  Hindered settling  Wen & Yu (1966): f(eps Re)/f(Re) eps^-2.65 [Di Felice]
 ///  Tube wall drag     Haberman & Sayre (1958), Stokes flow [Di Felice]
 ///  Plane wall drag    towards it Bevan & Prieve (2000), doi:10.1063/1.481900; along it Perkins & Jones
