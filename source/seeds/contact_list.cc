@@ -10,8 +10,14 @@ void PairList::set(const std::vector<SpherePair>& pairs, const std::vector<int>&
                    const std::vector<int>& group, const std::vector<int>& entry_of,
                    const std::vector<ContactLaw>& laws, const ContactBodies& bodies,
                    const ContactHistory& history) {
-  segments.clear(), first.clear(), second.clear(), slot.clear(), same_seeds.clear();
+  segments.clear(), first.clear(), second.clear(), slot.clear(), same_seeds.clear(), near.clear();
   memory.clear();
+  memory.reserve(history.pairs.size() + history.pairs.size() / 8);
+  const std::size_t room = pairs.size() + lane_width;
+  for (std::vector<int>* list : {&first, &second, &slot, &touching}) {
+    std::vector<int>().swap(*list);
+    list->reserve(room);
+  }
   for (int l = 0; l < static_cast<int>(laws.size()); ++l) {
     Segment segment{l, static_cast<int>(first.size()), 0, 0};
     auto old = history.pairs.begin();
@@ -33,6 +39,12 @@ void PairList::set(const std::vector<SpherePair>& pairs, const std::vector<int>&
       }
     }
     segment.end = static_cast<int>(first.size());
+    segment.first_group = static_cast<int>(near.size());
+    for (int k = segment.begin; k < segment.end; k += lane_width) {
+      unsigned bits = 0;
+      for (int l = 0; l < lane_width && k + l < segment.end; ++l) bits |= (slot[k + l] >= 0) << l;
+      near.push_back(static_cast<unsigned char>(bits));
+    }
     if (segment.end > segment.begin) segments.push_back(segment);
   }
   first.resize(slot.size() + lane_width, 0);
@@ -42,31 +54,30 @@ void PairList::set(const std::vector<SpherePair>& pairs, const std::vector<int>&
 }
 
 void PairList::find_touching(Segment& segment, const ContactBodies& bodies) {
-  segment.touching_end = segment.touching_begin;
-  const auto gather = [&](const std::vector<int>& entry, int k, int component) {
-    Lanes r;
-    for (int l = 0; l < lane_width; ++l) r[l] = bodies.state[entry[k + l]].motion[component];
-    return r;
-  };
-  for (int k = segment.begin; k < segment.end; k += lane_width) {
-    const Lanes dx = gather(first, k, 0) - gather(second, k, 0),
-                dy = gather(first, k, 1) - gather(second, k, 1),
-                dz = gather(first, k, 2) - gather(second, k, 2),
-                close = gather(first, k, 3) + gather(second, k, 3) + segment.reach;
+  static_assert(sizeof(ContactSphere) == 2 * sizeof(CacheLine));
+  const CacheLine* const records = &bodies.state.front().motion;
+  int* const list = touching.data();
+  int end = segment.touching_begin;
+  for (int k = segment.begin, g = segment.first_group; k < segment.end; k += lane_width, ++g) {
+    const int *const a = &first[k], *const b = &second[k];
+    const Lanes dx = gather<2>(records, a, 0) - gather<2>(records, b, 0),
+                dy = gather<2>(records, a, 1) - gather<2>(records, b, 1),
+                dz = gather<2>(records, a, 2) - gather<2>(records, b, 2),
+                close = gather<2>(records, a, 3) + gather<2>(records, b, 3) + segment.reach;
     unsigned bits = mask_bits(dx * dx + dy * dy + dz * dz < close * close);
-    const int n = std::min(lane_width, segment.end - k);
-    bits &= (1u << n) - 1;
-    for (int l = 0; l < n; ++l) {
+    if (k + lane_width > segment.end) bits &= (1u << (segment.end - k)) - 1;
+    for (unsigned changed = bits ^ near[g]; changed; changed &= changed - 1) {
+      const int l = __builtin_ctz(changed);
       int& line = slot[k + l];
-      const bool touches = bits >> l & 1;
-      if (touches == (line >= 0)) continue;
-      if (touches)
+      if (bits >> l & 1)
         line = memory.take();
       else
         memory.release(line), line = -1;
     }
-    for (; bits; bits &= bits - 1) touching[segment.touching_end++] = k + __builtin_ctz(bits);
+    near[g] = static_cast<unsigned char>(bits);
+    for (; bits; bits &= bits - 1) list[end++] = k + __builtin_ctz(bits);
   }
+  segment.touching_end = end;
 }
 
 template <Rolling rolling, Cohesion cohesion>

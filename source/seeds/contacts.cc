@@ -105,8 +105,13 @@ void Contacts::search(const Surroundings& now, const ContactParameters& paramete
   std::vector<int> entry_of(numbering.n_spheres(), -1);
   for (const SpherePair& pair : found) entry_of[pair.first] = entry_of[pair.second] = 0;
   for (const WallCandidate& c : at_walls) entry_of[c.sphere] = 0;
+  const std::size_t n_entries = std::count(entry_of.begin(), entry_of.end(), 0);
   all_bodies = ContactBodies{};
-  places.clear(), first_entry.clear();
+  all_bodies.sphere.reserve(n_entries), all_bodies.body.reserve(n_entries);
+  all_bodies.state.reserve(n_entries);
+  std::vector<Place>().swap(places);
+  places.reserve(n_entries);
+  first_entry.clear();
   int n_bodies = 0;
   for (std::size_t t = 0; t < now.stores.size(); ++t) {
     const SeedStore& s = now.stores[t];

@@ -123,10 +123,19 @@ std::vector<TimeStepLimit> Dem::time_step_limits() const {
       which << "sub-sphere of radius " << r << " m of template '" << s.model.name << "'";
       const double wave = rayleigh_time(r, density, material[s.material]);
       if (wave < rayleigh.full) rayleigh.full = wave, rayleigh.cause = "Rayleigh wave on a " + which.str();
-      const double between_seeds =
-          hertz_time(r / 2, mass / 2, contacts.law(s.material, s.material).young, p.impact_speed);
-      if (between_seeds < hertz.full)
-        hertz.full = between_seeds, hertz.cause = "Hertz contact of a " + which.str();
+      for (const SeedStore& other : store) {
+        if (other.seed.empty()) continue;
+        const double young = contacts.law(s.material, other.material).young;
+        for (int j = 0; j < other.n_spheres(); ++j) {
+          const double r2 = other.model.radius[j],
+                       mass2 = other.rigid ? other.model.mass : other.model.sphere_mass[j];
+          const double time =
+              hertz_time(r * r2 / (r + r2), mass * mass2 / (mass + mass2), young, p.impact_speed);
+          if (time >= hertz.full) continue;
+          hertz.full = time;
+          hertz.cause = "Hertz contact of a " + which.str() + " with one of '" + other.model.name + "'";
+        }
+      }
       for (const Wall& w : all_walls) {
         const double at_wall =
             hertz_time(r, mass, contacts.law(s.material, w.material).young, p.impact_speed);

@@ -50,6 +50,14 @@ SEEDFLOW_INLINE void to_records(const Lanes (&column)[8], CacheLine (&record)[la
   for (int l = 0; l < 8; ++l) *reinterpret_cast<Lanes*>(record[l].value) = row[l];
 }
 
+/// Number `component` of records[index[l] * stride] in lane l.
+template <int stride>
+SEEDFLOW_INLINE Lanes gather(const CacheLine* records, const int* index, int component) {
+  const __m256i line = _mm256_mullo_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)),
+                                          _mm256_set1_epi32(8 * stride));
+  return (Lanes)_mm512_i32gather_pd(line, records->value + component, 8);
+}
+
 /// One bit per lane.
 SEEDFLOW_INLINE unsigned mask_bits(LaneMask mask) {
   return _mm512_movepi64_mask((__m512i)mask);
@@ -65,6 +73,13 @@ SEEDFLOW_INLINE void load_columns(const CacheLine* const (&from)[lane_width], La
 SEEDFLOW_INLINE void to_records(const Lanes (&column)[8], CacheLine (&record)[lane_width]) {
   for (int l = 0; l < lane_width; ++l)
     for (int c = 0; c < 8; ++c) record[l].value[c] = column[c][l];
+}
+
+template <int stride>
+SEEDFLOW_INLINE Lanes gather(const CacheLine* records, const int* index, int component) {
+  Lanes r;
+  for (int l = 0; l < lane_width; ++l) r[l] = records[index[l] * stride].value[component];
+  return r;
 }
 
 SEEDFLOW_INLINE unsigned mask_bits(LaneMask mask) {

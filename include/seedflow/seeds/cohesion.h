@@ -35,7 +35,7 @@ struct NormalForce {
 template <class Real>
 SEEDFLOW_INLINE NormalForce<Real> hertz_force(double young, const ContactKinematics<Real>& c) {
   const Real zero{}, overlap = lane_max(c.overlap, zero);
-  const Real a = lane_sqrt(c.reduced_radius * overlap);
+  const Real a = root(c.reduced_radius * overlap);
   return {a, 4.0 / 3 * young * a * overlap, zero, select(c.overlap > zero, zero + 1.0, zero)};
 }
 

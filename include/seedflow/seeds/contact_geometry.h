@@ -59,13 +59,17 @@ template <Rolling rolling, Cohesion cohesion>
 SEEDFLOW_INLINE PairAction act_between(const ContactLaw& law, const LaneSphere& a, const LaneSphere& b,
                                        Lanes share, double step, ContactMemory<Lanes>& memory) {
   const LaneVec3 d = a.position - b.position;
-  const Lanes distance = norm(d);
+  const Lanes square = dot(d, d);
+  const Lanes inverse_distance = inverse_root(lane_max(square, Lanes{} + 1e-200));
+  const Lanes distance = square * inverse_distance;
   ContactKinematics<Lanes> c;
-  c.normal = (1.0 / lane_max(distance, Lanes{} + 1e-100)) * d;
+  c.normal = inverse_distance * d;
   c.normal.z += select(distance > 0.0, Lanes{}, Lanes{} + 1.0);  // same centre: any direction will do
   c.overlap = a.radius + b.radius - distance;
-  c.reduced_radius = a.radius * b.radius / (a.radius + b.radius);
-  c.reduced_mass = a.mass * b.mass / (a.mass + b.mass);
+  // Two reduced quantities for one reciprocal.
+  const Lanes radii = a.radius + b.radius, masses = a.mass + b.mass, both = inverse(radii * masses);
+  c.reduced_radius = a.radius * b.radius * (both * masses);
+  c.reduced_mass = a.mass * b.mass * (both * radii);
   c.share = share;
   const LaneVec3 arm_a = (0.5 * c.overlap - a.radius) * c.normal,
                  arm_b = (b.radius - 0.5 * c.overlap) * c.normal;
@@ -74,12 +78,13 @@ SEEDFLOW_INLINE PairAction act_between(const ContactLaw& law, const LaneSphere& 
   const LaneVec3 lever_a = a.lever + arm_a, lever_b = b.lever + arm_b;
   if constexpr (rolling != Rolling::none) {
     const Lanes square_a = dot(lever_a, lever_a), square_b = dot(lever_b, lever_b);
-    const Lanes ra = lane_sqrt(square_a), rb = lane_sqrt(square_b);
-    c.rolling_radius = 2.0 * ra * rb / (ra + rb);
-    c.inertia = a.inertia * b.inertia / (a.inertia + b.inertia);
+    const Lanes ra = root(square_a), rb = root(square_b);
+    const Lanes levers = ra + rb, inertias = a.inertia + b.inertia, inverse_both = inverse(levers * inertias);
+    c.rolling_radius = 2.0 * ra * rb * (inverse_both * inertias);
+    c.inertia = a.inertia * b.inertia * (inverse_both * levers);
     if constexpr (rolling == Rolling::epsd) {
       const Lanes ia = a.inertia + a.mass * square_a, ib = b.inertia + b.mass * square_b;
-      c.contact_inertia = ia * ib / (ia + ib);
+      c.contact_inertia = ia * ib * inverse(ia + ib);
     }
   }
   const ContactAction<Lanes> action = contact_action<rolling, cohesion>(law, c, step, memory);
@@ -108,7 +113,7 @@ SEEDFLOW_INLINE PairAction act_on_wall(const ContactLaw& law, const LaneSphere& 
   const LaneVec3 lever = a.lever + arm;
   if constexpr (rolling != Rolling::none) {
     const Lanes square = dot(lever, lever);
-    c.rolling_radius = lane_sqrt(square);
+    c.rolling_radius = root(square);
     c.inertia = a.inertia;
     c.contact_inertia = a.inertia + a.mass * square;
   }

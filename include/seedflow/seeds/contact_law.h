@@ -73,7 +73,7 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   const NormalForce<Real> f = normal_force_of<cohesion>(law, c, memory.attached);
   if constexpr (cohesion != Cohesion::none) memory.attached = f.attached;
 
-  const Real damping = c.share * lane_sqrt(c.reduced_mass * f.contact_radius);
+  const Real damping = c.share * root(c.reduced_mass * f.contact_radius);
   const Real normal_speed = dot(c.velocity, c.normal);
   const Vector slip = c.velocity - normal_speed * c.normal;
   ContactAction<Real> result;
@@ -93,11 +93,11 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   } else {
     spring = turned_into_plane<Real>(spring, c.normal) + step * slip;
   }
-  const Real trial = stiffness * norm(spring);
+  const Real trial = stiffness * length<Real>(spring);
   spring = cut(trial, limit) * spring;
   Vector tangential =
       -stiffness * spring - select(trial > limit, zero, law.tangential_damping * damping) * slip;
-  tangential = cut<Real>(norm(tangential), limit) * tangential;
+  tangential = cut<Real>(length<Real>(tangential), limit) * tangential;
   memory.spring = touches * spring;
   if constexpr (cohesion == Cohesion::none)
     result.force = pushing * c.normal + tangential;

@@ -28,6 +28,7 @@ class ContactMemoryPool {
     return line;
   }
   void release(int line) { lines[line] = ContactLine{}, free.push_back(line); }
+  void reserve(std::size_t n) { std::vector<ContactLine>().swap(lines), lines.reserve(n); }
   void clear() { lines.clear(), free.clear(); }
   ContactLine& operator[](int line) { return lines[line]; }
   const ContactLine& operator[](int line) const { return lines[line]; }
@@ -62,7 +63,8 @@ class PairList {
  private:
   struct Segment {
     int law, begin, end;
-    double reach;  ///< gap up to which contacts of this law act [m]
+    double reach;         ///< gap up to which contacts of this law act [m]
+    int first_group = 0;  ///< of `near`
     int touching_begin = 0, touching_end = 0;
   };
   void find_touching(Segment& segment, const ContactBodies& bodies);
@@ -70,11 +72,12 @@ class PairList {
   void add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, double step);
 
   std::vector<Segment> segments;
-  std::vector<int> first, second;  ///< [pair] entries; lane_width zeros behind
-  std::vector<int> slot;           ///< [pair] line of memory, -1 when apart
-  std::vector<int> same_seeds;     ///< [pair] group
-  std::vector<int> n_in_group;     ///< [group] touching pairs
-  std::vector<int> touching;       ///< pairs, ascending; lane_width entries room behind
+  std::vector<int> first, second;   ///< [pair] entries; lane_width zeros behind
+  std::vector<int> slot;            ///< [pair] line of memory, -1 when apart
+  std::vector<unsigned char> near;  ///< [lane_width pairs of a segment] one bit each: slot is not -1
+  std::vector<int> same_seeds;      ///< [pair] group
+  std::vector<int> n_in_group;      ///< [group] touching pairs
+  std::vector<int> touching;        ///< pairs, ascending; lane_width entries room behind
   ContactMemoryPool memory;
 };
 

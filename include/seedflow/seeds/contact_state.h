@@ -1,5 +1,6 @@
 #pragma once
 
+#include "seedflow/seeds/lane_root.h"
 #include "seedflow/seeds/lane_vector.h"
 
 namespace seedflow {
@@ -38,18 +39,24 @@ struct ContactAction {
   Real repulsion{};       ///< elastic, >= 0 [N]; Coulomb's limit is mu times this
 };
 
+template <class Real>
+SEEDFLOW_INLINE Real length(const VectorOf<Real>& a) {
+  return root(dot(a, a));
+}
+
 /// A vector kept in the tangent plane of a contact that turns: its part along the normal is removed and its
 /// length restored.
 template <class Real>
 SEEDFLOW_INLINE VectorOf<Real> turned_into_plane(const VectorOf<Real>& a, const VectorOf<Real>& normal) {
   const VectorOf<Real> projected = a - dot(a, normal) * normal;
-  return (norm(a) / lane_max(norm(projected), Real{} + 1e-100)) * projected;
+  const Real left = lane_max(dot(projected, projected), Real{} + 1e-200);
+  return (length<Real>(a) * inverse_root(left)) * projected;
 }
 
 /// Factor that cuts a vector of length `size` to at most `limit`.
 template <class Real>
 SEEDFLOW_INLINE Real cut(Real size, Real limit) {
-  return select(size > limit, limit / lane_max(size, Real{} + 1e-100), Real{} + 1.0);
+  return select(size > limit, limit * inverse(lane_max(size, Real{} + 1e-100)), Real{} + 1.0);
 }
 
 }  // namespace seedflow

@@ -20,9 +20,9 @@ template <class Real>
 SEEDFLOW_INLINE VectorOf<Real> constant_rolling_torque(const RollingNumbers& n,
                                                        const ContactKinematics<Real>& c, Real repulsion,
                                                        double inverse_step) {
-  const Real speed = norm(c.spin);
+  const Real speed = length<Real>(c.spin);
   const Real size = lane_min(n.coefficient * repulsion * c.rolling_radius, inverse_step * c.inertia * speed);
-  return (-size / lane_max(speed, Real{} + 1e-100)) * c.spin;
+  return (-size * inverse(lane_max(speed, Real{} + 1e-100))) * c.spin;
 }
 
 /// Elastic-plastic spring and dashpot (model C of Ai et al. 2011; spring of Iwashita & Oda 1998):
