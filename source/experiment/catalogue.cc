@@ -1,10 +1,13 @@
 #include "seedflow/base/parameters.h"
 #include "seedflow/experiment/experiment.h"
 #include "seedflow/experiment/oblique_impact.h"
+#include "seedflow/experiment/repose_angle.h"
+#include "seedflow/experiment/rotating_drum.h"
 #include "seedflow/experiment/settling.h"
 #include "seedflow/experiment/settling_study.h"
 #include "seedflow/experiment/settling_tank.h"
 #include "seedflow/experiment/single_seed.h"
+#include "seedflow/experiment/slope_screening.h"
 
 namespace seedflow {
 
@@ -17,7 +20,18 @@ std::vector<Experiment> experiment_catalogue() {
           {"oblique impact", "a sphere against a plane at all angles, beside measurements",
            run_oblique_impact, describe_oblique_impact, oblique_impact_observer},
           {"single seed", "one seed in a prescribed flow, in milliseconds", run_single_seed_experiment,
-           describe_single_seed, single_seed_observer}};
+           describe_single_seed, single_seed_observer},
+          {"repose angle", "seeds fall from a box and form a heap", run_repose_angle, describe_repose_angle},
+          {"repose angle study", "its angle for the paper's seed models, with repeats",
+           run_repose_angle_study, describe_repose_angle},
+          {"slope screening", "seeds flow down an inclined plate with holes into five bins",
+           run_slope_screening, describe_slope_screening},
+          {"slope screening study", "what passes, for the paper's seed models or against the inclination",
+           run_slope_screening_study, describe_slope_screening},
+          {"rotating drum", "two colours of seeds mix in a turning drum", run_rotating_drum,
+           describe_rotating_drum},
+          {"rotating drum study", "mixing index and surface for the paper's seed models and speeds",
+           run_rotating_drum_study, describe_rotating_drum}};
 }
 
 void declare_experiment_name(Parameters& parameters, std::string& name) {

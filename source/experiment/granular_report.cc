@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "seedflow/base/together.h"
+#include "seedflow/output/svg.h"
 
 namespace seedflow {
 
@@ -46,6 +47,15 @@ int GranularJob::finish(Summary& summary, const std::function<void()>& write_fil
   });
   summary.require_conservation();
   return exit_done;
+}
+
+std::string seeds_in_words(const GranularRun& run, const GranularParameters& granular) {
+  const int n = granular.model.n_spheres;
+  return std::to_string(run.n_seeds_at_start()) + " seeds of " +
+         printed_number(1e3 * granular.model.diameter) + " mm (" +
+         (n == 1 ? "plain spheres"
+                 : std::to_string(n) + " sub-spheres each, " + (granular.rigid ? "rigid" : "bonded")) +
+         ")";
 }
 
 LinePlot energy_plot(const Series& series, int n_seeds) {

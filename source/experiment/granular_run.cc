@@ -7,8 +7,8 @@
 
 #include "seedflow/base/binary.h"
 #include "seedflow/base/together.h"
-#include "seedflow/experiment/granular_filling.h"
 #include "seedflow/experiment/granular_recorder.h"
+#include "seedflow/seeds/feeder.h"
 
 namespace seedflow {
 
@@ -30,27 +30,28 @@ GranularRun::GranularRun(const GranularParameters& p, const GranularScene& the_s
 }
 
 void GranularRun::add_seeds() {
-  std::vector<SeedTemplate> models = parameters.templates();
-  std::vector<int> number;
+  std::vector<FeederParameters::Kind> kinds;
   double bounding_radius = 0, mass = 0;
-  for (const SeedTemplate& model : models) {
-    number.push_back(
-        seeds.add_template(model, parameters.materials.number(parameters.seed_material), parameters.rigid));
+  const int material = parameters.materials.number(parameters.seed_material);
+  for (const SeedTemplate& model : parameters.templates()) {
+    kinds.emplace_back(seeds.add_template(model, material, parameters.rigid), model);
     bounding_radius = std::max(bounding_radius, model.bounding_radius);
-    mass += model.mass / static_cast<double>(models.size());
+    mass += model.mass;
   }
-  const int n = std::max(1, static_cast<int>(std::lround(parameters.mass / mass)));
-  RandomNumbers random(parameters.random_number);
+  const double n = std::max(1.0, parameters.mass / mass * static_cast<double>(kinds.size()));
   double share = 0;
-  for (const FillingRoom& room : scene.rooms) {
-    const int before = static_cast<int>(std::lround(share * n));
+  for (std::size_t i = 0; i < scene.rooms.size(); ++i) {
+    const FillingRoom& room = scene.rooms[i];
+    FeederParameters feeding;
+    feeding.name = room.name;
+    feeding.places = LatticePlaces{room.low, room.high, 2.2 * bounding_radius, 0.8};
+    feeding.kinds = kinds;
+    feeding.number = static_cast<int>(std::lround((share + room.share) * n) - std::lround(share * n));
+    feeding.first_group = room.group;
+    feeding.random_number =
+        static_cast<int>(scene.rooms.size()) * parameters.random_number + static_cast<int>(i);
     share += room.share;
-    const int here = static_cast<int>(std::lround(share * n)) - before;
-    for (const Vec3& place : lattice_places(room, here, bounding_radius, random)) {
-      const int kind =
-          number[static_cast<std::size_t>(random.uniform() * static_cast<double>(number.size()))];
-      seeds.set_group(seeds.add_seed(kind, place, random.orientation()), room.group);
-    }
+    Feeder(feeding).feed(seeds);
   }
   n_at_start = seeds.n_seeds();
 }

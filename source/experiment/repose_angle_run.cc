@@ -63,10 +63,8 @@ void write_report(const ReposeAngle& experiment, const GranularRun& run, const H
   namespace reference = repose_reference;
   Report report("Angle of repose", "./seedflow " + options.prm, "seedflow");
   std::ostringstream lead;
-  lead << run.n_seeds_at_start() << " seeds of " << 1e3 * experiment.granular.model.diameter << " mm ("
-       << experiment.granular.model.n_spheres << " sub-spheres each, "
-       << (experiment.granular.rigid ? "rigid" : "bonded") << ", " << experiment.granular.mass
-       << " kg) fall from a box whose board is pulled away at " << experiment.board_speed
+  lead << seeds_in_words(run, experiment.granular) << ", " << experiment.granular.mass
+       << " kg, fall from a box whose board is pulled away at " << experiment.board_speed
        << " m/s (Xu et al. 2024, section 3.2.1).";
   report.lead(lead.str());
   const double angle = heap.mean / degree, off = std::abs(angle - reference::measured);

@@ -90,12 +90,11 @@ GranularScene RotatingDrum::scene(Gathered& gathered, const std::filesystem::pat
     s.walls.emplace_back(
         "diaphragm", Rectangle{{0, 0.5 * length, 0}, {1, 0, 0}, {0, 1, 0}, length + 2 * d, 2 * r + d}, end);
 
-  const auto inside_drum = [r](const Vec3& x, double ball) { return std::hypot(x.x, x.z) + ball < r; };
   if (diaphragm) {
-    s.rooms = {{"left half of the drum", {-r, 0, -r}, {0, length, r}, inside_drum, 0.5, 0},
-               {"right half of the drum", {0, 0, -r}, {r, length, r}, inside_drum, 0.5, 1}};
+    s.rooms = {{"left half of the drum", {-r, 0, -r}, {0, length, r}, 0.5, 0},
+               {"right half of the drum", {0, 0, -r}, {r, length, r}, 0.5, 1}};
   } else {
-    s.rooms = {{"drum", {-r, 0, -r}, {r, length, r}, inside_drum, 1, 0}};
+    s.rooms = {{"drum", {-r, 0, -r}, {r, length, r}}};
   }
 
   s.begin = [this, n_turning](Dem& dem, double start) {

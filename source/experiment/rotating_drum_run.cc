@@ -104,10 +104,7 @@ void write_report(const RotatingDrum& drum, const GranularRun& run, const Rotati
                   const RunOptions& options) {
   Report report("Rotating drum", "./seedflow " + options.prm, "seedflow");
   std::ostringstream lead;
-  lead << run.n_seeds_at_start() << " seeds of " << 1e3 * drum.granular.model.diameter << " mm ("
-       << drum.granular.model.n_spheres
-       << (drum.granular.model.n_spheres > 1 ? " sub-spheres each, " : " sphere each, ")
-       << (drum.granular.rigid ? "rigid" : "bonded") << ") in a drum of radius " << 1e3 * drum.radius
+  lead << seeds_in_words(run, drum.granular) << " in a drum of radius " << 1e3 * drum.radius
        << " mm and length " << 1e3 * drum.length << " mm, " << fixed(drum.speed / rpm, 1) << " rpm, "
        << printed_number(drum.revolutions) << " revolutions"
        << (drum.measurements.empty() ? " (Xu et al. 2024, section 3.2.3)." : ".");
@@ -251,8 +248,9 @@ int run_rotating_drum_study(const RunOptions& options) {
   report.lead(
       "The paper's rotating container experiment with its seed models (Table 2): mixing index against "
       "revolutions and the dynamic contour.");
-  report.verdict(Report::Verdict::neutral, table.verdict("lacey_view_5mm", reference::measured_plateau, 0) +
-                                               "The measured plateau is at 40 rpm.");
+  report.verdict(Report::Verdict::neutral,
+                 table.verdict(observables.front(), reference::measured_plateau, 0) +
+                     "The measured plateau is at 40 rpm.");
   // Fig. 17: one plot per speed and kind of model, the first repeat of each model.
   std::vector<std::string> groups;
   for (const StudyCase& one : study.cases())
@@ -260,18 +258,18 @@ int run_rotating_drum_study(const RunOptions& options) {
   for (const std::string& group : groups) {
     LinePlot plot{"Mixing index, " + group + " (Fig. 17)",
                   {"revolutions"},
-                  {"mixing index, view, 5 mm", "%", false, 0.0}};
+                  {"mixing index, view, smallest cells", "%", false, 0.0}};
     for (const StudyCase& one : study.cases()) {
       if (one.group != group || one.repeat != 1) continue;
       const Series series = study.series_of(one);
-      plot.series.push_back(
-          {"N = " + std::to_string(one.n_spheres), series["revolutions"], series["lacey view 5 mm"]});
+      plot.series.push_back({"N = " + std::to_string(one.n_spheres), series["revolutions"],
+                             series[mixing_columns(drum).front()]});
     }
     plot.horizontal = {{reference::measured_plateau, "measured, 40 rpm"}};
     report.add(plot);
   }
-  LinePlot plateaus =
-      table.against_roughness("lacey_view_5mm", "Mixing index after four revolutions", {"mixing index", "%"});
+  LinePlot plateaus = table.against_roughness(observables.front(), "Mixing index after four revolutions",
+                                              {"mixing index", "%"});
   LineSeries papers{
       "paper, simulated, 40 rpm",
       {0.125, 0.1, 0.075},

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "seedflow/base/binary.h"
 #include "seedflow/base/error.h"
 
 namespace seedflow {
@@ -26,8 +24,23 @@ HoleLattice holes_of(const SlopeScreening& e) {
 
 }  // namespace
 
-double SlopeScreening::Bins::passed() const {
-  return std::accumulate(mass.begin(), mass.end(), 0.0);
+double percentage(const RegionCensus& census, int region) {
+  return census.mass_in() > 0 ? 100 * census.mass_counted(region) / census.mass_in() : 0;
+}
+
+RegionCensus SlopeScreening::bins() const {
+  // A seed is in a bin when it has left the hole with all of its diameter. The bins stand below fifths of the
+  // plate; their edges are far lower than a seed falls in a series interval.
+  const double d = granular.model.diameter, far = 1;
+  std::vector<Region> regions;
+  for (int area = 0; area < n_areas; ++area) {
+    const double from = area == 0 ? -far : length * area / n_areas;
+    const double to = area == n_areas - 1 ? length + d : length * (area + 1) / n_areas;
+    regions.push_back({"area " + std::to_string(area + 1),
+                       BoxRegion{{from, -far, -far}, {to, far, -thickness - d}}, Region::Action::remove});
+  }
+  regions.push_back({"over the end", HalfSpaceRegion{{length + d, 0, 0}, {1, 0, 0}}, Region::Action::remove});
+  return RegionCensus(regions);
 }
 
 int SlopeScreening::n_holes() const {
@@ -69,7 +82,7 @@ void SlopeScreening::check(const Parameters& p) {
   granular.dem.gravity = gravity();
 }
 
-GranularScene SlopeScreening::scene(Bins& bins) const {
+GranularScene SlopeScreening::scene(RegionCensus& census) const {
   GranularScene s;
   const int resin = granular.materials.number(material);
   const double d = granular.model.diameter, height = 150e-3, below = thickness + 12 * d;
@@ -97,43 +110,28 @@ GranularScene SlopeScreening::scene(Bins& bins) const {
   s.rooms = {{"loading area", {-loading_length, 0, 0}, {0, width, height}}};
 
   const double speed = insert_speed, gone = height / speed;
-  s.begin = [this, insert, speed, gone, &bins](Dem& dem, double start) {
+  s.begin = [insert, speed, gone](Dem& dem, double start) {
     Wall& wall = dem.wall(insert);
     wall.motion = WallMotion::constant({0, 0, speed});
     wall.motion.displacement.start = start;
     wall.motion.displacement.stop = start + gone;
-    if (bins.all > 0) return;  // after a resume
-    for (const double m : dem.masses()) bins.all += m;
   };
-  s.after_interval = [this, insert, gone, d, &bins](Dem& dem, double time) {
+  s.after_interval = [insert, gone, &census](Dem& dem, double time) {
     if (time >= gone) dem.set_wall_active(insert, false);
-    std::vector<int> left;
-    for (int i = 0; i < dem.n_seeds(); ++i) {
-      const Vec3 x = dem.seed_state(i).centre;
-      const bool over = x.x > length + d, through = x.z < -thickness - d;
-      if (!over && !through) continue;
-      const double mass = dem.seed_template(i).mass;
-      // The bins stand upright below the plate; their edges are at fifths of its length.
-      const int area = std::clamp(static_cast<int>(x.x / length * n_areas), 0, n_areas - 1);
-      (over ? bins.over_end : bins.mass[area]) += mass;
-      left.push_back(i);
-    }
-    bins.seeds += static_cast<long>(left.size());
-    dem.remove_seeds(left);
+    census.update(dem);
   };
   s.finished = [](const Dem& dem, double time) {
     return time > 0.5 && (dem.n_seeds() == 0 || kinetic_energy_per_seed(dem) < 1e-11);
   };
   for (int area = 0; area < n_areas; ++area) s.columns.push_back({"area " + std::to_string(area + 1), "%"});
   s.columns.push_back({"over the end", "%"});
-  s.observe = [&bins](const Dem&, double) {
+  s.observe = [&census](const Dem&, double) {
     std::vector<double> row;
-    for (int area = 0; area < n_areas; ++area) row.push_back(bins.all > 0 ? bins.percentage(area) : 0);
-    row.push_back(bins.all > 0 ? 100 * bins.over_end / bins.all : 0);
+    for (int region = 0; region <= n_areas; ++region) row.push_back(percentage(census, region));
     return row;
   };
-  s.save = [&bins](std::ostream& out) { write_binary(out, bins); };
-  s.load = [&bins](std::istream& in) { read_binary(in, bins); };
+  s.save = [&census](std::ostream& out) { census.save(out); };
+  s.load = [&census](std::istream& in) { census.load(in); };
   s.not_of_filling = {"Screen/Inclination", "Screen/Insert speed", "Screen/Hole diameter",
                       "Screen/Hole pitch"};
   return s;

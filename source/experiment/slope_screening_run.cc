@@ -23,6 +23,12 @@ std::vector<std::string> observable_names() {
   return names;
 }
 
+double total_passing(const RegionCensus& bins) {
+  double sum = 0;
+  for (int area = 0; area < SlopeScreening::n_areas; ++area) sum += percentage(bins, area);
+  return sum;
+}
+
 /// The plate from the side in the lab frame: x to the right and down the slope.
 SeedPicture side_view(const SlopeScreening& e, const Dem& dem, const std::string& title) {
   const double c = std::cos(e.inclination), s = std::sin(e.inclination);
@@ -63,27 +69,26 @@ BarPlot passing_plot(const std::vector<BarSeries>& series) {
   return plot;
 }
 
-void write_report(const SlopeScreening& e, const GranularRun& run, const SlopeScreening::Bins& bins,
+void write_report(const SlopeScreening& e, const GranularRun& run, const RegionCensus& bins,
                   const Summary& summary, const RunOptions& options) {
   Report report("Slope screening", "./seedflow " + options.prm, "seedflow");
   std::ostringstream lead;
-  lead << run.n_seeds_at_start() << " seeds of " << 1e3 * e.granular.model.diameter << " mm ("
-       << e.granular.model.n_spheres << " sub-spheres each, " << (e.granular.rigid ? "rigid" : "bonded")
-       << ") flow down a plate with " << e.n_holes() << " holes of " << 1e3 * e.hole << " mm, "
-       << 1e3 * e.pitch << " mm apart, inclined by " << fixed(e.inclination / degree, 1)
-       << " degrees (Xu et al. 2024, section 3.2.2).";
+  lead << seeds_in_words(run, e.granular) << " flow down a plate with " << e.n_holes() << " holes of "
+       << 1e3 * e.hole << " mm, " << 1e3 * e.pitch << " mm apart, inclined by "
+       << fixed(e.inclination / degree, 1) << " degrees (Xu et al. 2024, section 3.2.2).";
   report.lead(lead.str());
-  const double off = std::abs(bins.percentage(0) - reference::measured_area_1);
+  const double off = std::abs(percentage(bins, 0) - reference::measured_area_1);
   const bool papers = std::abs(e.inclination / degree - 10) < 0.01;
   report.verdict(!papers    ? Report::Verdict::neutral
                  : off < 3  ? Report::Verdict::agrees
                  : off < 10 ? Report::Verdict::doubtful
                             : Report::Verdict::disagrees,
-                 fixed(bins.percentage(0), 1) + " % of the mass fell into area 1 (measured at 10 degrees: " +
-                     fixed(reference::measured_area_1, 2) + " %), " +
-                     fixed(100 * bins.passed() / bins.all, 1) + " % through the plate altogether.");
+                 fixed(percentage(bins, 0), 1) + " % of the mass fell into area 1 (measured at 10 degrees: " +
+                     fixed(reference::measured_area_1, 2) + " %), " + fixed(total_passing(bins), 1) +
+                     " % through the plate altogether, " + fixed(summary.observable("left_on_the_plate"), 1) +
+                     " % were still on it after " + fixed(run.time(), 2) + " s.");
   std::vector<double> values;
-  for (int area = 0; area < SlopeScreening::n_areas; ++area) values.push_back(bins.percentage(area));
+  for (int area = 0; area < SlopeScreening::n_areas; ++area) values.push_back(percentage(bins, area));
   report.add(passing_plot({{"this run", values}}));
   report.figure(side_view(e, run.dem(), "At the end, from the side").svg(),
                 "What is left on the plate at the end; seeds in the bins have been counted and taken out.");
@@ -123,7 +128,7 @@ int run_slope_screening(const RunOptions& options) {
   parameters.read(options.prm, options.overrides);
   SlopeScreening& experiment = input.experiment;
   experiment.check(parameters);
-  SlopeScreening::Bins bins;
+  RegionCensus bins = experiment.bins();
   const GranularScene scene = experiment.scene(bins);
   GranularJob job(parameters, options, experiment.granular, scene);
   if (options.dry_run) return job.say_what_it_will_be();
@@ -132,23 +137,23 @@ int run_slope_screening(const RunOptions& options) {
   job.run.carry_out(parameters, options, summary);
 
   double remaining = 0;
-  for (const double m : job.run.dem().masses()) remaining += m;
+  for (int i = 0; i < job.run.dem().n_seeds(); ++i) remaining += job.run.dem().seed_template(i).mass;
   for (int area = 0; area < SlopeScreening::n_areas; ++area)
-    summary.observe("area_" + std::to_string(area + 1), bins.percentage(area), "%");
-  summary.observe("total_passing", 100 * bins.passed() / bins.all, "%");
-  summary.observe("over_the_end", 100 * bins.over_end / bins.all, "%");
-  summary.observe("left_on_the_plate", 100 * remaining / bins.all, "%");
+    summary.observe("area_" + std::to_string(area + 1), percentage(bins, area), "%");
+  summary.observe("total_passing", total_passing(bins), "%");
+  summary.observe("over_the_end", percentage(bins, SlopeScreening::n_areas), "%");
+  summary.observe("left_on_the_plate", 100 * remaining / bins.mass_in(), "%");
   summary.observe("holes", experiment.n_holes(), "1");
   summary.observe("measured_area_1", reference::measured_area_1, "%");
   // Round-off of a sum of a thousand masses.
   summary.conserve("mass in bins, over the end and on the plate",
-                   (bins.passed() + bins.over_end + remaining) / bins.all - 1, 1e-10);
+                   (bins.mass_removed() + remaining) / bins.mass_in() - 1, 1e-10);
   return job.finish(summary, [&] {
     write_file_atomically(std::filesystem::path(options.output) / "plate.svg",
                           side_view(experiment, job.run.dem(), "").svg());
     write_report(experiment, job.run, bins, summary, options);
-    std::cout << "passing " << fixed(100 * bins.passed() / bins.all, 1) << " %, area 1 "
-              << fixed(bins.percentage(0), 2) << " % (measured 51.41)" << std::endl;
+    std::cout << "passing " << fixed(total_passing(bins), 1) << " %, area 1 " << fixed(percentage(bins, 0), 2)
+              << " % (measured 51.41)" << std::endl;
   });
 }
 

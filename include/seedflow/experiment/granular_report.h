@@ -42,6 +42,8 @@ std::string used_text(const RunOptions& options) {
   return as_text(parameters);
 }
 
+/// "2227 seeds of 4 mm (70 sub-spheres each, rigid)".
+std::string seeds_in_words(const GranularRun& run, const GranularParameters& granular);
 /// Kinetic energy per seed against time, logarithmic.
 LinePlot energy_plot(const Series& series, int n_seeds);
 /// Tables of all observables and balances, and where the other files are.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "seedflow/experiment/experiment.h"
-#include "seedflow/experiment/granular_filling.h"
 #include "seedflow/experiment/granular_parameters.h"
 #include "seedflow/experiment/granular_view.h"
 #include "seedflow/experiment/supervised_run.h"
@@ -15,6 +14,14 @@
 #include "seedflow/output/summary.h"
 
 namespace seedflow {
+
+/// A room that is filled with seeds of one group before the experiment begins.
+struct FillingRoom {
+  std::string name;
+  Vec3 low, high;    ///< [m]; walls inside are respected
+  double share = 1;  ///< of all seeds
+  int group = 0;     ///< colour
+};
 
 /// What is special about one experiment: where its walls are, how it begins, what is measured.
 struct GranularScene {

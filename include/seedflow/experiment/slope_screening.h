@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "seedflow/experiment/granular_run.h"
+#include "seedflow/seeds/region.h"
 
 namespace seedflow {
 
@@ -31,23 +31,18 @@ struct SlopeScreening {
   void declare(Parameters& parameters);
   void check(const Parameters& parameters);
 
-  /// Seeds that have left the plate, by where they went. Kept by the scene, so that it goes into checkpoints.
-  struct Bins {
-    std::array<double, n_areas> mass{};  ///< through the holes of area 1, 2, ... [kg]
-    double over_end = 0;                 ///< [kg]
-    double all = 0;                      ///< of all seeds at the start [kg]
-    long seeds = 0;                      ///< that have left
-
-    double passed() const;
-    /// Percentage of all seeds' mass [%].
-    double percentage(int area) const { return 100 * mass[area] / all; }
-  };
-  /// The bins must outlive the scene.
-  GranularScene scene(Bins& bins) const;
+  /// The five bins (regions 0 to 4) and what lies beyond the plate's end (region 5); seeds that come into one
+  /// are counted and taken out.
+  RegionCensus bins() const;
+  /// `census` must outlive the scene.
+  GranularScene scene(RegionCensus& census) const;
   int n_holes() const;
   /// Inclined gravity [m/s2].
   Vec3 gravity() const;
 };
+
+/// Mass in a region over the mass of all seeds [%].
+double percentage(const RegionCensus& census, int region);
 
 namespace screening_reference {
 inline constexpr double measured_area_1 = 51.41;   ///< [%]
