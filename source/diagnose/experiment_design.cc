@@ -38,8 +38,11 @@ std::vector<std::pair<Condition, int>> variations(const ObservableModel& model) 
   return all;
 }
 
-Setting fitted(const Weighed& w) {
+Setting fitted(const ObservableModel& model, const Weighed& w) {
   Setting setting;
+  for (std::size_t e = 0; e < model.uncertain_inputs().size() && w.what.nuisance >= 0; ++e)
+    if (model.uncertain_inputs()[e].nuisance == w.what.nuisance)
+      setting.error[static_cast<int>(e)] = Weighing::widening * w.fit.mean[w.fit.mean.size() - 1];
   for (std::size_t i = 0; i < w.what.set.size(); ++i) setting.amplitude[w.what.set[i]] = w.amplitude[i];
   return setting;
 }
@@ -70,7 +73,7 @@ SuggestedExperiment suggest_experiment(const Problem& problem, ObservableModel& 
         ++row;
       }
       for (const std::size_t r : rivals)
-        predicted.push_back(model.predict_condition(condition, like, fitted(tried[r].trained)));
+        predicted.push_back(model.predict_condition(condition, like, fitted(model, tried[r].trained)));
       inputs.setZero(base.size(), static_cast<Eigen::Index>(model.nuisances().size()));
       for (std::size_t e = 0; e < model.uncertain_inputs().size(); ++e) {
         if (!model.uncertain_inputs()[e].applies[like]) continue;
@@ -85,14 +88,13 @@ SuggestedExperiment suggest_experiment(const Problem& problem, ObservableModel& 
     Eigen::MatrixXd k = inputs * inputs.transpose();
     k.diagonal() += sigma.cwiseAbs2();
     const Eigen::LLT<Eigen::MatrixXd> factor(k);
-    // The pair that would still be hardest to tell apart.
+    // The rival that would still be hardest to tell from the best explanation.
     double separation = 1e300;
-    for (std::size_t a = 0; a < predicted.size(); ++a)
-      for (std::size_t b = a + 1; b < predicted.size(); ++b) {
-        const Eigen::VectorXd d = predicted[a] - predicted[b];
-        separation =
-            std::min(separation, d.allFinite() && k.allFinite() ? std::sqrt(d.dot(factor.solve(d))) : 0);
-      }
+    for (std::size_t b = 1; b < predicted.size(); ++b) {
+      const Eigen::VectorXd d = predicted[0] - predicted[b];
+      separation =
+          std::min(separation, d.allFinite() && k.allFinite() ? std::sqrt(d.dot(factor.solve(d))) : 0);
+    }
     if (separation < 1e300 && separation > best.separation)
       best.separation = separation, best.condition = condition, best.found = true;
   }
