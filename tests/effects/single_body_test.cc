@@ -194,7 +194,7 @@ TEST(SingleBody, NeutralSphereLagsAParabolicProfile) {
   set["Drag"].set_choice("Law", "Stokes");
   set["Faxen force"].set_strength(1);
   SingleBody sphere({2e-3, 1000, 1}, flow, set);
-  // The second difference loses 1e-16/(0.02 d/R)^2 of U to round-off.
+  // The second difference loses 1e-16/(0.01 d/R)^2 of U to round-off.
   EXPECT_NEAR(sphere.run({0.1}, 1e-3).back().velocity.z, 1e-2 * (1 - 2.0 / 3 / 25), 1e-11);
   // A plain shear has no curvature.
   flow.velocity = [](const Vec3& x, double) { return Vec3{0, 0, 3 * x.x}; };
