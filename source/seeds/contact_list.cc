@@ -60,6 +60,11 @@ void PairList::find_touching(Segment& segment, const ContactBodies& bodies) {
   int end = segment.touching_begin;
   for (int k = segment.begin, g = segment.first_group; k < segment.end; k += lane_width, ++g) {
     const int *const a = &first[k], *const b = &second[k];
+    if (k + 4 * lane_width <= n_listed())
+      for (int l = 3 * lane_width; l < 4 * lane_width; ++l) {
+        __builtin_prefetch(records + 2 * a[l]);
+        __builtin_prefetch(records + 2 * b[l]);
+      }
     const Lanes dx = gather<2>(records, a, 0) - gather<2>(records, b, 0),
                 dy = gather<2>(records, a, 1) - gather<2>(records, b, 1),
                 dz = gather<2>(records, a, 2) - gather<2>(records, b, 2),
@@ -86,6 +91,14 @@ void PairList::add_segment(const Segment& segment, const ContactLaw& law, Contac
   const bool normalised = !same_seeds.empty();
   for (int k = segment.touching_begin; k < segment.touching_end; k += lane_width) {
     const int n = std::min(lane_width, segment.touching_end - k);
+    for (int next = k + lane_width; next < std::min(k + 2 * lane_width, segment.touching_end); ++next) {
+      const int a = first[touching[next]], b = second[touching[next]];
+      __builtin_prefetch(&bodies.state[a].turning);
+      __builtin_prefetch(&bodies.state[b].turning);
+      __builtin_prefetch(&bodies.sum[bodies.body[a]], 1);
+      __builtin_prefetch(&bodies.sum[bodies.body[b]], 1);
+      __builtin_prefetch(&memory[slot[touching[next]]], 1);
+    }
     int pair[lane_width];
     const CacheLine *motion_a[lane_width], *turning_a[lane_width], *motion_b[lane_width],
         *turning_b[lane_width], *line[lane_width];
@@ -114,21 +127,35 @@ void PairList::add_segment(const Segment& segment, const ContactLaw& law, Contac
 }
 
 void PairList::add_forces(const std::vector<ContactLaw>& laws, ContactBodies& bodies, double step) {
+  const auto act = [&](const Segment& segment) {
+    with_models(laws[segment.law], [&](auto rolling, auto cohesion) {
+      add_segment<decltype(rolling)::value, decltype(cohesion)::value>(segment, laws[segment.law], bodies,
+                                                                       step);
+    });
+  };
+  if (same_seeds.empty()) {
+    // Tested and acted upon in pieces, so that the bodies are still in the cache.
+    constexpr int piece = 32 * lane_width;
+    for (const Segment& segment : segments)
+      for (int begin = segment.begin; begin < segment.end; begin += piece) {
+        Segment part = segment;
+        part.begin = begin, part.end = std::min(begin + piece, segment.end);
+        part.first_group += (begin - segment.begin) / lane_width;
+        part.touching_begin = 0;
+        find_touching(part, bodies);
+        act(part);
+      }
+    return;
+  }
   int begin = 0;
   for (Segment& segment : segments) {
     segment.touching_begin = begin;
     find_touching(segment, bodies);
     begin = segment.touching_end;
   }
-  if (!same_seeds.empty()) {
-    std::fill(n_in_group.begin(), n_in_group.end(), 0);
-    for (int k = 0; k < begin; ++k) ++n_in_group[same_seeds[touching[k]]];
-  }
-  for (const Segment& segment : segments)
-    with_models(laws[segment.law], [&](auto rolling, auto cohesion) {
-      add_segment<decltype(rolling)::value, decltype(cohesion)::value>(segment, laws[segment.law], bodies,
-                                                                       step);
-    });
+  std::fill(n_in_group.begin(), n_in_group.end(), 0);
+  for (int k = 0; k < begin; ++k) ++n_in_group[same_seeds[touching[k]]];
+  for (const Segment& segment : segments) act(segment);
 }
 
 void PairList::collect(const ContactBodies& bodies, std::vector<ContactHistory::Pair>& out) const {
