@@ -61,18 +61,17 @@ SEEDFLOW_INLINE void gradient(const NodalSpace<dim, degree>& space, const CellPo
 /// The explicit terms of the momentum equation whose part outside the nodal space is treated as a subscale:
 /// c grad p, and with dynamic subscales also the force and the past, c grad p - S - f + rho (a1 eps u^n + a2
 /// eps u^{n-1})/dt [N/m3]. `past` is the last term alone.
+/// `old`, `older`: a1 eps^n and a2 eps^{n-1}; `rate`: rho/dt.
 template <int dim>
-SEEDFLOW_INLINE Lanes past_momentum(const StepCoefficients& c, const FlowFields<dim>& fields, std::size_t k,
-                                    int d) {
-  return c.density / c.time.dt *
-         (c.time.old * fields.eps_old[k] * fields.u_old[k * dim + d] +
-          c.time.older * fields.eps_older[k] * fields.u_older[k * dim + d]);
+SEEDFLOW_INLINE Lanes past_momentum(const FlowFields<dim>& fields, std::size_t k, int d, double rate,
+                                    Lanes old, Lanes older) {
+  return rate * (old * fields.u_old[k * dim + d] + older * fields.u_older[k * dim + d]);
 }
 template <int dim>
-SEEDFLOW_INLINE Lanes subscale_terms(const StepCoefficients& c, const FlowFields<dim>& fields, std::size_t k,
-                                     int d, Lanes share, Lanes g) {
-  if (!c.dynamic_subscales) return share * g;
-  return share * g - fields.source[k * dim + d] + past_momentum(c, fields, k, d);
+SEEDFLOW_INLINE Lanes subscale_terms(bool dynamic, const FlowFields<dim>& fields, std::size_t k, int d,
+                                     Lanes pressure, double rate, Lanes old, Lanes older) {
+  if (!dynamic) return pressure;
+  return pressure - fields.source[k * dim + d] + past_momentum(fields, k, d, rate, old, older);
 }
 
 /// Nodal values of the projection of subscale_terms / M.

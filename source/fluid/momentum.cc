@@ -2,15 +2,18 @@
 
 namespace seedflow {
 
-template <int dim, int degree>
-void project_explicit_terms(const NodalSpace<dim, degree>& space, const StepCoefficients& c,
-                            FlowFields<dim>& fields) {
+namespace {
+
+template <int dim, int degree, bool dynamic>
+void project_terms(const NodalSpace<dim, degree>& space, const StepCoefficients& c, FlowFields<dim>& fields) {
+  constexpr int n_values = dynamic ? 2 * dim : dim;
+  const double rate = c.density / c.time.dt;
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   NodalVector denominator(fields.p);
   denominator = 0;
   std::vector<NodalVector*> results;
   for (int d = 0; d < dim; ++d) results.push_back(&fields.y[d]);
-  if (c.dynamic_subscales)
+  if (dynamic)
     for (int d = 0; d < dim; ++d) results.push_back(&fields.z[d]);
   for (NodalVector* v : results) {
     v->zero_out_ghost_values();
@@ -30,20 +33,21 @@ void project_explicit_terms(const NodalSpace<dim, degree>& space, const StepCoef
     }
     // Unused lanes repeat a cell with weight zero; they must not divide by it.
     mean = volume > broadcast(0.0) ? mean / volume : m[0];
-    Lanes load[2 * dim][n] = {}, mass[n] = {};
+    Lanes load[n_values][n] = {}, mass[n] = {};
     for (int q = 0; q < n_q; ++q) {
       const CellPoint<dim> at(space, group, q);
       const std::size_t k = group * n_q + q;
-      Lanes g[dim], value[2 * dim];
+      Lanes g[dim], value[n_values];
       gradient(space, at, q, p, g);
       const Lanes weight_m = (degree == 1 ? m[q] : mean) * at.weight, weight = weight_m / m[q];
       for (int d = 0; d < dim; ++d) {
         value[d] = weight * c.share(fields.eps[k]) * g[d];
-        if (!c.dynamic_subscales) continue;
-        value[d] -= weight * fields.source[k * dim + d];
-        value[dim + d] = weight * past_momentum(c, fields, k, d);
+        if constexpr (dynamic) {
+          value[d] -= weight * fields.source[k * dim + d];
+          value[dim + d] = weight * past_momentum(fields, k, d, rate, c.time.old * fields.eps_old[k],
+                                                  c.time.older * fields.eps_older[k]);
+        }
       }
-      const int n_values = c.dynamic_subscales ? 2 * dim : dim;
       for (int i = 0; i < n; ++i) {
         mass[i] += space.shape.test[q][0][i] * weight_m;
         for (int v = 0; v < n_values; ++v) load[v][i] += space.shape.test[q][0][i] * value[v];
@@ -60,6 +64,17 @@ void project_explicit_terms(const NodalSpace<dim, degree>& space, const StepCoef
     v->update_ghost_values();
     space.set_constrained(*v);
   }
+}
+
+}  // namespace
+
+template <int dim, int degree>
+void project_explicit_terms(const NodalSpace<dim, degree>& space, const StepCoefficients& c,
+                            FlowFields<dim>& fields) {
+  if (c.dynamic_subscales)
+    project_terms<dim, degree, true>(space, c, fields);
+  else
+    project_terms<dim, degree, false>(space, c, fields);
 }
 
 template <int dim, int degree>
@@ -112,9 +127,10 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
       gradient(space, at, q, p, g);
       for (int d = 0; d < dim; ++d) {
         const Lanes projected = shape.interpolate(q, 0, y[d]);
-        const Lanes terms = subscale_terms(c, fields, k, d, share, g[d]);
+        const Lanes terms = subscale_terms(c.dynamic_subscales, fields, k, d, share * g[d], rate, old, older);
         Lanes f = -(terms * (1.0 - theta) + m * theta * projected);
-        if (!c.dynamic_subscales) f += fields.source[k * dim + d] - past_momentum(c, fields, k, d);
+        if (!c.dynamic_subscales)
+          f += fields.source[k * dim + d] - past_momentum(fields, k, d, rate, old, older);
         f *= at.weight;
         load[d][q][0] = f;
         for (int e = 0; e < dim; ++e) load[d][q][1 + e] = upwind[q] * w_ref[q][e] * f;

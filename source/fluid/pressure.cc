@@ -43,6 +43,8 @@ double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoe
                              const FlowFields<dim>& fields, NodalVector& rhs) {
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   const auto& shape = space.shape;
+  const double rate = c.density / c.time.dt;
+  const bool dynamic = c.dynamic_subscales;
   rhs = 0;
   Lanes scale{};
   for (std::size_t group = 0; group < space.n_groups; ++group) {
@@ -57,16 +59,16 @@ double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoe
       const CellPoint<dim> at(space, group, q);
       const std::size_t k = group * n_q + q;
       const Lanes eps = fields.eps[k], theta = fields.theta[k];
-      const Lanes inertia = c.inertia(eps, fields.beta[k]);
+      const Lanes inverse = 1.0 / c.inertia(eps, fields.beta[k]), share = c.share(eps);
+      const Lanes old = c.time.old * fields.eps_old[k], older = c.time.older * fields.eps_older[k];
       Lanes g[dim], velocity[dim];
       gradient(space, at, q, p, g);
       for (int d = 0; d < dim; ++d)
-        velocity[d] = shape.interpolate(q, 0, u[d]) -
-                      theta * (subscale_terms(c, fields, k, d, c.share(eps), g[d]) / inertia -
-                               shape.interpolate(q, 0, y[d]));
-      load[q][0] = -at.weight *
-                   (c.time.now * eps + c.time.old * fields.eps_old[k] + c.time.older * fields.eps_older[k]) /
-                   c.time.dt;
+        velocity[d] =
+            shape.interpolate(q, 0, u[d]) -
+            theta * (subscale_terms(dynamic, fields, k, d, share * g[d], rate, old, older) * inverse -
+                     shape.interpolate(q, 0, y[d]));
+      load[q][0] = -at.weight * (c.time.now * eps + old + older) / c.time.dt;
       at.to_reference(velocity, load[q] + 1);
       flow += at.weight * eps * length<dim>(load[q] + 1);
       growth += load[q][0];
@@ -87,6 +89,7 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   const auto& shape = space.shape;
   const double rate = c.density / c.time.dt;
+  const bool dynamic = c.dynamic_subscales;
   mass_residual = 0;
   Lanes change[dim] = {}, exchange[dim] = {}, pressure[dim] = {}, share_sum[dim] = {}, momentum[dim] = {};
   Lanes circulation{}, growth{};
@@ -103,7 +106,7 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
       const CellPoint<dim> at(space, group, q);
       const std::size_t k = group * n_q + q;
       const Lanes eps = fields.eps[k], theta = fields.theta[k], beta = fields.beta[k], w = at.weight;
-      const Lanes share = c.share(eps), inertia = c.inertia(eps, beta), kappa = share / inertia;
+      const Lanes share = c.share(eps), inverse = 1.0 / c.inertia(eps, beta), kappa = share * inverse;
       const Lanes old = c.time.old * fields.eps_old[k], older = c.time.older * fields.eps_older[k];
       Lanes g[dim], g_phi[dim], velocity[dim];
       gradient(space, at, q, p, g);
@@ -111,7 +114,8 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
       for (int d = 0; d < dim; ++d) {
         velocity[d] =
             shape.interpolate(q, 0, u[d]) - kappa * g_phi[d] -
-            theta * (subscale_terms(c, fields, k, d, share, g[d]) / inertia - shape.interpolate(q, 0, y[d]));
+            theta * (subscale_terms(dynamic, fields, k, d, share * g[d], rate, old, older) * inverse -
+                     shape.interpolate(q, 0, y[d]));
         const Lanes u_old = fields.u_old[k * dim + d], u_older = fields.u_older[k * dim + d];
         change[d] += w * rate * (c.time.now * eps * velocity[d] + old * u_old + older * u_older);
         exchange[d] += w * (fields.source[k * dim + d] - beta * velocity[d]);
