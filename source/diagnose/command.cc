@@ -19,10 +19,10 @@ int run(const CommandLine&, const std::vector<std::string>& arguments, std::ostr
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const Problem problem = read_problem(options.prm, options.overrides);
-  if (rank != 0) return exit_done;
   const std::filesystem::path folder = options.output;
-  RunStore store(folder);
-  const Diagnosis answer = diagnose(problem, store);
+  RunStore store(folder, MPI_COMM_WORLD);
+  const Diagnosis answer = diagnose(problem, store);  // every rank draws the same conclusions
+  if (rank != 0) return exit_done;
   write_diagnosis(folder / "diagnosis.json", problem, answer);
   write_diagnosed_model(folder / (problem.name + ".diagnosed.prm"), problem, answer);
   write_diagnosis_report(folder / "report.html", problem, answer, "./seedflow diagnose " + options.prm);

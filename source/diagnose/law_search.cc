@@ -38,12 +38,7 @@ double Law::price() const {
 }
 
 bool LawSearch::possible(const ObservableModel& model) {
-  try {
-    model.base_value(head + "Strength", 0);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
+  return model.has_entry(head + "Strength");
 }
 
 LawSearch::LawSearch(ObservableModel& model, Responses& responses, Weighing& weighing, const DataNoise& noise,

@@ -10,6 +10,7 @@
 #include "seedflow/base/parameter_file.h"
 #include "seedflow/base/units.h"
 #include "seedflow/effects/catalogue.h"
+#include "seedflow/effects/contact_effects.h"
 #include "seedflow/experiment/experiment.h"
 #include "seedflow/output/folder.h"
 
@@ -145,10 +146,12 @@ void ObservableModel::read_points() {
 void ObservableModel::choose_candidates() {
   all_candidates = problem.candidates;
   if (all_candidates.empty()) {
-    for (const std::string& name : effect_names()) {
+    std::vector<std::string> names = effect_names();
+    for (const EffectRecord& record : contact_effect_records()) names.push_back(record.name);
+    for (const std::string& name : names) {
       const std::string path = "Effects/" + name + "/Strength";
-      if (name != "Inferred law" && base_value(path, 0) == 0)
-        all_candidates.push_back({name, {{path, 0, 1}}});
+      if (name == "Inferred law" || !has_entry(path)) continue;
+      if (base_value(path, 0) == 0) all_candidates.push_back({name, {{path, 0, 1}}});
     }
   }
   for (const Candidate& candidate : all_candidates)
@@ -182,6 +185,15 @@ const PreparedRun& ObservableModel::prepare(const Condition& condition) {
   std::vector<std::string> all = condition.overrides;
   all.insert(all.end(), problem.overrides.begin(), problem.overrides.end());
   return store.prepared(identity + joined(all), [&] { return observer.prepare(problem.prm, all); });
+}
+
+bool ObservableModel::has_entry(const std::string& path) const {
+  try {
+    base_value(path, 0);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 double ObservableModel::base_value(const std::string& path, int condition) const {

@@ -2,34 +2,44 @@
 
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "seedflow/base/error.h"
+#include "seedflow/base/together.h"
 #include "seedflow/output/folder.h"
 
 namespace seedflow {
 
-RunStore::RunStore(const std::filesystem::path& folder) {
-  prepare_output_folder(folder);
+RunStore::RunStore(const std::filesystem::path& folder, MPI_Comm comm) {
   const std::filesystem::path path = folder / "runs.jsonl";
-  bool complete = true;
-  {
-    std::ifstream in(path);
-    for (std::string line; std::getline(in, line);) {
-      const auto record = nlohmann::json::parse(line, nullptr, false);
-      complete = !in.eof();
-      if (record.is_discarded() || !record.contains("key")) continue;
-      RunOutcome outcome;
-      outcome.values = record.value("values", std::vector<double>());
-      outcome.error = record.value("error", std::string());
-      outcome.seconds = record.value("seconds", 0.0);
-      outcomes[record["key"].get<std::string>()] = outcome;
-    }
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string text;
+  together(comm, [&] {
+    if (rank != 0) return;
+    prepare_output_folder(folder);
+    if (std::filesystem::exists(path)) text = read_file(path);
+    file.reset(std::fopen(path.c_str(), "a"));
+    if (!file)
+      throw InputError("The file '" + path.string() + "' cannot be written. Choose another --output.");
+    // Ends the line that a killed process left open.
+    if (!text.empty() && text.back() != '\n') std::fputc('\n', file.get());
+  });
+  unsigned long size = text.size();
+  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm);
+  text.resize(size);
+  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, comm);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto record = nlohmann::json::parse(line, nullptr, false);
+    if (record.is_discarded() || !record.contains("key")) continue;
+    RunOutcome outcome;
+    outcome.values = record.value("values", std::vector<double>());
+    outcome.error = record.value("error", std::string());
+    outcome.seconds = record.value("seconds", 0.0);
+    outcomes[record["key"].get<std::string>()] = outcome;
   }
-  file.reset(std::fopen(path.c_str(), "a"));
-  if (!file) throw InputError("The file '" + path.string() + "' cannot be written. Choose another --output.");
-  if (!complete) std::fputc('\n', file.get());  // ends the line that a killed process left open
 }
 
 RunStore::~RunStore() = default;

@@ -12,26 +12,27 @@
 namespace seedflow {
 
 std::vector<Experiment> experiment_catalogue() {
-  return {{"settling", "one bonded seed falls in a fluid", run_settling, describe_settling},
-          {"settling study", "five seed models x readings x kinds of drag, beside the paper's Table 5",
-           run_settling_study, describe_settling_study},
-          {"settling tank", "a sphere in a closed tank, beside measurements", run_settling_tank,
-           describe_settling_tank},
-          {"oblique impact", "a sphere against a plane at all angles, beside measurements",
-           run_oblique_impact, describe_oblique_impact, oblique_impact_observer},
-          {"single seed", "one seed in a prescribed flow, in milliseconds", run_single_seed_experiment,
-           describe_single_seed, single_seed_observer},
-          {"repose angle", "seeds fall from a box and form a heap", run_repose_angle, describe_repose_angle},
-          {"repose angle study", "its angle for the paper's seed models, with repeats",
-           run_repose_angle_study, describe_repose_angle},
-          {"slope screening", "seeds flow down an inclined plate with holes into five bins",
-           run_slope_screening, describe_slope_screening},
-          {"slope screening study", "what passes, for the paper's seed models or against the inclination",
-           run_slope_screening_study, describe_slope_screening},
-          {"rotating drum", "two colours of seeds mix in a turning drum", run_rotating_drum,
-           describe_rotating_drum},
-          {"rotating drum study", "mixing index and surface for the paper's seed models and speeds",
-           run_rotating_drum_study, describe_rotating_drum}};
+  return {
+      {"settling", "one bonded seed falls in a fluid", run_settling, describe_settling, settling_observer},
+      {"settling study", "five seed models x readings x kinds of drag, beside the paper's Table 5",
+       run_settling_study, describe_settling_study},
+      {"settling tank", "a sphere in a closed tank, beside measurements", run_settling_tank,
+       describe_settling_tank},
+      {"oblique impact", "a sphere against a plane at all angles, beside measurements", run_oblique_impact,
+       describe_oblique_impact, oblique_impact_observer},
+      {"single seed", "one seed in a prescribed flow, in milliseconds", run_single_seed_experiment,
+       describe_single_seed, single_seed_observer},
+      {"repose angle", "seeds fall from a box and form a heap", run_repose_angle, describe_repose_angle},
+      {"repose angle study", "its angle for the paper's seed models, with repeats", run_repose_angle_study,
+       describe_repose_angle},
+      {"slope screening", "seeds flow down an inclined plate with holes into five bins", run_slope_screening,
+       describe_slope_screening},
+      {"slope screening study", "what passes, for the paper's seed models or against the inclination",
+       run_slope_screening_study, describe_slope_screening},
+      {"rotating drum", "two colours of seeds mix in a turning drum", run_rotating_drum,
+       describe_rotating_drum},
+      {"rotating drum study", "mixing index and surface for the paper's seed models and speeds",
+       run_rotating_drum_study, describe_rotating_drum}};
 }
 
 void declare_experiment_name(Parameters& parameters, std::string& name) {

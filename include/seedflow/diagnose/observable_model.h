@@ -66,6 +66,7 @@ class ObservableModel {
   std::vector<std::pair<std::string, double>> changes(const Setting& setting, int condition) const;
   /// Candidates and nuisances that the base model already has.
   double base_value(const std::string& path, int condition) const;
+  bool has_entry(const std::string& path) const;
 
   const std::vector<RunRecord>& failures() const { return failed; }
   long runs() const { return n_runs; }

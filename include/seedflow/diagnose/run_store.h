@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -26,8 +28,9 @@ struct RunOutcome {
 class RunStore {
  public:
   RunStore() = default;
-  /// Errors: InputError if the folder cannot be written.
-  explicit RunStore(const std::filesystem::path& folder);
+  /// All ranks remember; the first one reads and writes the file. Collective. Errors: InputError if the
+  /// folder cannot be written.
+  explicit RunStore(const std::filesystem::path& folder, MPI_Comm comm = MPI_COMM_SELF);
   ~RunStore();
   RunStore(const RunStore&) = delete;
   RunStore& operator=(const RunStore&) = delete;

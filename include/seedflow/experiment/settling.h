@@ -13,6 +13,8 @@ namespace seedflow {
 /// Experiment "settling": one bonded seed falls in a box of fluid (Xu et al. 2024, section 3.2.4).
 int run_settling(const RunOptions& options);
 void describe_settling(std::ostream& out, const std::string& section);
+/// Quantities: velocity over time, terminal velocity.
+Observer settling_observer();
 
 /// Adds velocity_0.05s, 0.10, 0.15, 0.20 (where the run got that far), terminal_velocity and what they are
 /// compared with; all speeds downward positive [m/s].
