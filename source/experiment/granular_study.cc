@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "seedflow/base/parameter_file.h"
 #include "seedflow/base/parameters.h"
 #include "seedflow/base/together.h"
 #include "seedflow/base/units.h"
@@ -83,21 +84,30 @@ RunOptions GranularStudy::options_of(const StudyCase& one) const {
   const std::filesystem::path folder = options.output;
   RunOptions own = options;
   own.output = (folder / "runs" / one.folder_name).string();
-  own.overrides.insert(
-      own.overrides.end(),
-      {"Experiment=" + experiment, "Seeds/Sub-spheres=" + std::to_string(one.n_spheres),
-       std::string("Seeds/Rigid=") + (one.motion == "rigid" ? "true" : "false"),
-       "Seeds/Reading=" + one.reading,
-       std::string("Seeds/Equal mean caliper=") + (one.caliper == "equal" ? "true" : "false"),
-       "Filling/Random number=" + std::to_string(one.repeat),
-       // What else is in the study does not belong to this run.
-       "Study/Models=70", "Study/Motions=rigid", "Study/Readings=radius", "Study/Calipers=as packed",
-       "Study/Repeats=1"});
+  // An entry may be set once: what the case sets takes the place of what the user set for the study.
+  const auto set = [&own](const std::string& path, const std::string& value) {
+    own.overrides.erase(
+        std::remove_if(own.overrides.begin(), own.overrides.end(),
+                       [&](const std::string& text) { return path_of(scan_override(text)) == path; }),
+        own.overrides.end());
+    own.overrides.push_back(path + "=" + value);
+  };
+  set("Experiment", experiment);
+  set("Seeds/Sub-spheres", std::to_string(one.n_spheres));
+  set("Seeds/Rigid", one.motion == "rigid" ? "true" : "false");
+  set("Seeds/Reading", one.reading);
+  set("Seeds/Equal mean caliper", one.caliper == "equal" ? "true" : "false");
+  set("Filling/Random number", std::to_string(one.repeat));
+  // What else is in the study does not belong to this run.
+  set("Study/Models", "70");
+  set("Study/Motions", "rigid");
+  set("Study/Readings", "radius");
+  set("Study/Calipers", "as packed");
+  set("Study/Repeats", "1");
   if (!study.axis.values.empty()) {
-    own.overrides.push_back("Study/" + study.axis.name + "=0");
-    own.overrides.push_back(study.axis.path + "=" + exact_text(one.along));
-    own.overrides.push_back("Filling/Cache=" +
-                            std::filesystem::absolute(folder / "fillings" / one.filling_name).string());
+    set("Study/" + study.axis.name, "0");
+    set(study.axis.path, exact_text(one.along));
+    set("Filling/Cache", std::filesystem::absolute(folder / "fillings" / one.filling_name).string());
   }
   return own;
 }
