@@ -121,11 +121,7 @@ std::vector<BenchmarkCase> benchmark_cases(long draws) {
       BenchmarkTruth vessel =
           hidden({which == 0 ? "Tube wall drag" : "Hindered settling", "one vessel", standard}, amplitude);
       vessel.rivals = {"Tube wall drag", "Hindered settling"};
-      add("confounded", vessel, level(0.02), draws / 2 + 1);
-      BenchmarkTruth lift =
-          hidden({which == 0 ? "Saffman lift" : "Magnus lift", "one shear", standard}, amplitude);
-      lift.rivals = {"Saffman lift", "Magnus lift"};
-      add("confounded", lift, level(0.02), draws / 2 + 1);
+      add("confounded", vessel, level(0.02), draws);
     }
 
   const BenchmarkTruth twos[] = {pair("oscillating", {"Drag"}, "Pressure gradient", "Added mass", 0.9, 1.1),

@@ -244,22 +244,6 @@ BenchmarkFamily air() {
   return finished(f);
 }
 
-/// Repeats of one run in one shear: lift by shear and lift by rotation of a seed that does not spin push the
-/// same way in one proportion, here about equally.
-BenchmarkFamily one_shear() {
-  BenchmarkFamily f{"one shear", {"position x", "velocity z"}, 20, {}, {}};
-  const auto condition = [](double diameter, double rate) {
-    BenchmarkCondition c;
-    c.seed = seed_of({diameter, 1100, 0.01});
-    c.seed.flow.shear = rate;
-    c.end_time = 9 / rate;
-    return c;
-  };
-  for (int i = 0; i < 4; ++i) f.conditions.push_back(condition(3e-3, 75));
-  f.possible = {condition(3e-3, 300), condition(3e-3, 60), condition(1e-3, 75)};
-  return finished(f);
-}
-
 }  // namespace
 
 const std::vector<BenchmarkFamily>& benchmark_families() {
@@ -283,8 +267,7 @@ const std::vector<BenchmarkFamily>& benchmark_families() {
       channel(),
       air(),
       vessels("one vessel", {{0.15, 0.85, 1}, {0.15, 0.85, 1}, {0.15, 0.85, 1}, {0.15, 0.85, 1}},
-              {{0.02, 0.85, 1}, {0.15, 0.95, 1}, {0.4, 0.85, 1}}),
-      one_shear()};
+              {{0.02, 0.85, 1}, {0.15, 0.95, 1}, {0.4, 0.85, 1}})};
   return families;
 }
 
