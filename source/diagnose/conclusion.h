@@ -25,8 +25,8 @@ struct Conclusion {
   const DataNoise& noise;
   const Split& split;
   const Adequacy& gate;
-  const Eigen::VectorXd& z;              ///< standardised residuals of the base model
-  double score_of_law = -1e300;          ///< of the best law outside the catalogue, see LawSearch::library
+  const Eigen::VectorXd& z;      ///< standardised residuals of the base model
+  double score_of_law = -1e300;  ///< of the best law outside the catalogue, see LawSearch::screened_laws
   std::vector<std::size_t> rivals = {};  ///< among the explanations, of an ambiguous verdict
 
   /// Sets verdict and rivals; returns the explanation that won, or null.

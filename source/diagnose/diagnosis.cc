@@ -224,9 +224,9 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
     const auto nothing_missing = std::find_if(tried.begin(), tried.end(), [](const Tried& t) {
       return t.trained.what.set.empty() && t.trained.what.nuisance < 0;
     });
-    const auto library =
-        LawSearch(model, responses, weighing, noise, split).library(nothing_missing->trained.noise);
-    if (!library.empty()) conclusion.score_of_law = library.front().score;
+    const auto laws =
+        LawSearch(model, responses, weighing, noise, split).screened_laws(nothing_missing->trained.noise);
+    if (!laws.empty()) conclusion.score_of_law = laws.front().score;
   }
   Tried* winner = conclusion.decide(tried, answer);
   if (winner && !winner->trained.what.set.empty() && !split.has_held_out)

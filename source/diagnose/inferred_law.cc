@@ -29,12 +29,12 @@ InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& we
   InferredLaw found;
   if (!LawSearch::possible(model)) return found;
   LawSearch search(model, responses, weighing, noise, split);
-  const std::vector<LawSearch::Screened> library = search.library(noise_variants()[0]);
+  const std::vector<LawSearch::Screened> laws = search.screened_laws(noise_variants()[0]);
   // The best term of each of the best combinations of direction and group is refined.
   LawSearch::Refined best;
   double best_score = -1e300;
   std::vector<std::pair<int, int>> done;
-  for (const auto& [law, screened] : library) {
+  for (const auto& [law, screened] : laws) {
     const int group = only_group(law);
     if (std::find(done.begin(), done.end(), std::make_pair(law.direction, group)) != done.end()) continue;
     done.emplace_back(law.direction, group);
@@ -47,8 +47,8 @@ InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& we
   const bool poor = best_score > -1e300 && chi2_tail(best.chi2, best.points) < 1e-3;
   const Law first = best.law;
   for (int g = 0; g < Law::n_groups && poor && only_group(first) >= 0; ++g) {
-    const bool varies = std::any_of(library.begin(), library.end(),
-                                    [g](const LawSearch::Screened& l) { return l.law.has[g]; });
+    const bool varies =
+        std::any_of(laws.begin(), laws.end(), [g](const LawSearch::Screened& l) { return l.law.has[g]; });
     if (first.has[g] || !varies) continue;
     Law law = first;
     law.has[g] = true;

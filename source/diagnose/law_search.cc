@@ -81,7 +81,7 @@ LinearFit LawSearch::evaluate(const Eigen::VectorXd& value, const Eigen::MatrixX
   return fit(noise, variant, linear, split.all);
 }
 
-std::vector<LawSearch::Screened> LawSearch::library(const NoiseVariant& other) {
+std::vector<LawSearch::Screened> LawSearch::screened_laws(const NoiseVariant& other) {
   const auto response = [&](Law law) {
     law.coefficient = probe;
     Eigen::VectorXd d = (model.predict(setting(law)) - responses.base()) / probe;

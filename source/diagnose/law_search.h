@@ -38,7 +38,7 @@ class LawSearch {
   };
   /// Every direction, alone and with every group to a few powers, as far as it acts: linear response, under
   /// the stated noise and under `other`. Best first.
-  std::vector<Screened> library(const NoiseVariant& other);
+  std::vector<Screened> screened_laws(const NoiseVariant& other);
 
   /// Gauss-Newton over coefficient and exponents with real runs.
   struct Refined {
