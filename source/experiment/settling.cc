@@ -200,6 +200,7 @@ int run_settling(const RunOptions& options) {
   Summary summary;
   summary.text("experiment", name);
   run_to_end(simulation, parameters, options, summary);
+  if (simulation.fluid()) summary.observe("air_cells", simulation.n_cells(), "1");
   const std::vector<std::string> idle = p.effects.idle();
   if (writes) {
     const std::filesystem::path folder = options.output;
