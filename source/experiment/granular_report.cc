@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "seedflow/base/together.h"
+#include "seedflow/output/summary_tables.h"
 #include "seedflow/output/svg.h"
 
 namespace seedflow {
@@ -72,15 +73,7 @@ LinePlot energy_plot(const Series& series, int n_seeds) {
 }
 
 void add_numbers(const Summary& summary, Report& report) {
-  report.heading("Numbers");
-  Table numbers{"Observables", {"name", "value", "unit"}};
-  for (const auto& o : summary.observables())
-    numbers.rows.push_back({o.name, Table::number(o.value), o.unit});
-  report.add(numbers);
-  Table balances{"Conservation", {"balance", "relative error", "limit"}};
-  for (const auto& b : summary.balances())
-    balances.rows.push_back({b.name, Table::number(b.relative_error, 2), Table::number(b.limit, 2)});
-  if (!balances.rows.empty()) report.add(balances);
+  add_summary_tables(summary, report);
   report.paragraph(
       "`series.csv` has the course in time; `seeds.pvd` opens in ParaView (show as Point Gaussian, scaled by "
       "radius, coloured by group); `summary.json` has these numbers for programs.");

@@ -84,20 +84,9 @@ void write_report(const ReposeAngle& experiment, const GranularRun& run, const H
   report.write(std::filesystem::path(options.output) / "report.html");
 }
 
-struct Input {
-  std::string name = "repose angle";
-  ReposeAngle experiment;
-  GranularStudyParameters study;
-
-  Input() = default;
-  explicit Input(const RunOptions& options) {
-    experiment.granular = GranularParameters(options.prm, options.overrides);
-  }
-  void declare(Parameters& p) {
-    declare_experiment_name(p, name);
-    experiment.declare(p);
-    study.declare(p, {});
-  }
+struct Input : GranularInput<ReposeAngle> {
+  Input() : GranularInput("repose angle", StudyAxis{}) {}
+  explicit Input(const RunOptions& options) : GranularInput("repose angle", StudyAxis{}, options) {}
 };
 
 const std::vector<std::string> observables = {"angle", "angle_left", "angle_right"};

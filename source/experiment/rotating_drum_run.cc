@@ -164,20 +164,11 @@ void write_report(const RotatingDrum& drum, const GranularRun& run, const Rotati
   report.write(fs::path(options.output) / "report.html");
 }
 
-struct Input {
-  std::string name = "rotating drum";
-  RotatingDrum experiment;
-  GranularStudyParameters study;
+const StudyAxis axis = {"Speeds", "Drum/Speed", "rad/s", {}, "rpm", 1 / rpm};
 
-  Input() = default;
-  explicit Input(const RunOptions& options) {
-    experiment.granular = GranularParameters(options.prm, options.overrides);
-  }
-  void declare(Parameters& p) {
-    declare_experiment_name(p, name);
-    experiment.declare(p);
-    study.declare(p, {"Speeds", "Drum/Speed", "rad/s", {}, "rpm", 1 / rpm});
-  }
+struct Input : GranularInput<RotatingDrum> {
+  Input() : GranularInput("rotating drum", axis) {}
+  explicit Input(const RunOptions& options) : GranularInput("rotating drum", axis, options) {}
 };
 
 }  // namespace

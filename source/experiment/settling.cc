@@ -10,6 +10,7 @@
 #include "seedflow/experiment/settling_reference.h"
 #include "seedflow/output/folder.h"
 #include "seedflow/output/report.h"
+#include "seedflow/output/summary_tables.h"
 
 namespace seedflow {
 
@@ -165,15 +166,7 @@ void write_settling_report(const Series& seeds, const SimulationParameters& p, c
   report.heading("What agrees, what cannot, and why");
   report.list(explain(p, summary));
 
-  report.heading("Numbers");
-  Table numbers{"Observables", {"name", "value", "unit"}};
-  for (const auto& o : summary.observables())
-    numbers.rows.push_back({o.name, Table::number(o.value), o.unit});
-  report.add(numbers);
-  Table balances{"Conservation", {"balance", "relative error", "limit"}};
-  for (const auto& b : summary.balances())
-    balances.rows.push_back({b.name, Table::number(b.relative_error, 2), Table::number(b.limit, 2)});
-  if (!balances.rows.empty()) report.add(balances);
+  add_summary_tables(summary, report);
   report.paragraph(
       "For ParaView: `seeds.pvd` (show as Point Gaussian, scaled by radius), `air.pvd`, `walls.vtp`.");
   report.write(std::filesystem::path(options.output) / "report.html");

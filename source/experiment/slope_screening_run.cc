@@ -102,20 +102,12 @@ void write_report(const SlopeScreening& e, const GranularRun& run, const RegionC
   report.write(std::filesystem::path(options.output) / "report.html");
 }
 
-struct Input {
-  std::string name = "slope screening";
-  SlopeScreening experiment;
-  GranularStudyParameters study;
+const StudyAxis axis = {"Inclinations", "Screen/Inclination", "rad", {}, "deg", 180 / M_PI};
 
-  Input() { experiment.granular.mass = 0.05; }
-  explicit Input(const RunOptions& options) {
-    experiment.granular = GranularParameters(options.prm, options.overrides);
+struct Input : GranularInput<SlopeScreening> {
+  Input() : GranularInput("slope screening", axis) { experiment.granular.mass = 0.05; }
+  explicit Input(const RunOptions& options) : GranularInput("slope screening", axis, options) {
     experiment.granular.mass = 0.05;
-  }
-  void declare(Parameters& p) {
-    declare_experiment_name(p, name);
-    experiment.declare(p);
-    study.declare(p, {"Inclinations", "Screen/Inclination", "rad", {}, "deg", 180 / M_PI});
   }
 };
 

@@ -32,6 +32,29 @@ struct GranularJob {
   static const RunOptions& prepared(const RunOptions& options);
 };
 
+/// All entries of an experiment's .prm: the experiment's own, and the study's, which a single run does not
+/// use.
+template <class Experiment>
+struct GranularInput {
+  GranularInput(const std::string& experiment_name, const StudyAxis& study_axis)
+      : name(experiment_name), axis(study_axis) {}
+  /// `options` name the file that lists walls, materials and feeders, whose sections are to be declared.
+  GranularInput(const std::string& experiment_name, const StudyAxis& study_axis, const RunOptions& options)
+      : GranularInput(experiment_name, study_axis) {
+    experiment.granular = GranularParameters(options.prm, options.overrides);
+  }
+  void declare(Parameters& p) {
+    declare_experiment_name(p, name);
+    experiment.declare(p);
+    study.declare(p, axis);
+  }
+
+  std::string name;
+  Experiment experiment;
+  GranularStudyParameters study;
+  StudyAxis axis;
+};
+
 /// used.prm of a run with these options. `Input` declares all entries.
 template <class Input>
 std::string used_text(const RunOptions& options) {
