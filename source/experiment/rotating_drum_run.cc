@@ -164,11 +164,11 @@ void write_report(const RotatingDrum& drum, const GranularRun& run, const Rotati
   report.write(fs::path(options.output) / "report.html");
 }
 
-const StudyAxis axis = {"Speeds", "Drum/Speed", "rad/s", {}, "rpm", 1 / rpm};
+const StudyAxis varied = {"Speeds", "Drum/Speed", "rad/s", {}, "rpm", 1 / rpm};
 
 struct Input : GranularInput<RotatingDrum> {
-  Input() : GranularInput("rotating drum", axis) {}
-  explicit Input(const RunOptions& options) : GranularInput("rotating drum", axis, options) {}
+  Input() : GranularInput("rotating drum", varied) {}
+  explicit Input(const RunOptions& options) : GranularInput("rotating drum", varied, options) {}
 };
 
 }  // namespace

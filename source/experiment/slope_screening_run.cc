@@ -102,11 +102,11 @@ void write_report(const SlopeScreening& e, const GranularRun& run, const RegionC
   report.write(std::filesystem::path(options.output) / "report.html");
 }
 
-const StudyAxis axis = {"Inclinations", "Screen/Inclination", "rad", {}, "deg", 180 / M_PI};
+const StudyAxis varied = {"Inclinations", "Screen/Inclination", "rad", {}, "deg", 180 / M_PI};
 
 struct Input : GranularInput<SlopeScreening> {
-  Input() : GranularInput("slope screening", axis) { experiment.granular.mass = 0.05; }
-  explicit Input(const RunOptions& options) : GranularInput("slope screening", axis, options) {
+  Input() : GranularInput("slope screening", varied) { experiment.granular.mass = 0.05; }
+  explicit Input(const RunOptions& options) : GranularInput("slope screening", varied, options) {
     experiment.granular.mass = 0.05;
   }
 };
