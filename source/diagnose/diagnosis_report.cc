@@ -27,7 +27,9 @@ void add_places(const Diagnosis& answer, Report& report) {
   for (std::size_t i = 0; i < std::min<std::size_t>(answer.places.size(), 10); ++i) {
     const Place& p = answer.places[i];
     table.rows.push_back({p.axis, p.bin, Table::number(p.statistic, 3), Table::number(p.p_value, 2)});
-    if (i < 6) plot.groups.push_back(p.bin), bars.values.push_back(p.statistic);
+    if (i < 6)
+      plot.groups.push_back(p.axis == "condition" ? p.bin : p.axis + " " + p.bin),
+          bars.values.push_back(p.statistic);
   }
   if (answer.places.empty()) {
     report.paragraph("There is one bin only.");
@@ -141,8 +143,9 @@ void write_diagnosis_report(const std::filesystem::path& file, const Problem& pr
               std::filesystem::path(problem.prm).filename().string() + "` and " +
               std::to_string(problem.measurements.size()) + " measured values under " +
               std::to_string(problem.conditions.size()) + " conditions?");
-  const bool good = answer.verdict == Verdict::named || answer.verdict == Verdict::none;
-  report.verdict(good                                          ? Report::Verdict::agrees
+  // The box says how model and data stand to each other: only NONE is agreement.
+  report.verdict(answer.verdict == Verdict::none               ? Report::Verdict::agrees
+                 : answer.verdict == Verdict::named            ? Report::Verdict::neutral
                  : answer.verdict == Verdict::not_in_catalogue ? Report::Verdict::disagrees
                                                                : Report::Verdict::doubtful,
                  "**" + verdict_name(answer.verdict) + ".** " + answer.sentence);

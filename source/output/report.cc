@@ -33,10 +33,10 @@ figure svg { display: block; max-width: 100%; height: auto; }
 figcaption, .note { font-size: 0.88rem; line-height: 1.5; color: #444c56; margin-top: 6px; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.88rem; line-height: 1.4; min-width: 50%; font-variant-numeric: tabular-nums; }
-th, td { text-align: left; padding: 7px 18px 7px 0; border-bottom: 1px solid #e4e7eb; vertical-align: top; }
+th, td { text-align: left; padding: 7px 12px 7px 0; border-bottom: 1px solid #e4e7eb; vertical-align: top; }
 th { border-bottom: 2px solid #57606a; vertical-align: bottom; }
-th.n, td.n { text-align: right; white-space: nowrap; }
-td.n { padding-left: 10px; }
+th.n, td.n { text-align: right; }
+td.n { white-space: nowrap; padding-left: 10px; }
 tbody tr:last-child td { border-bottom: 1px solid #57606a; }
 .table-title { font-size: 0.88rem; margin: 0 0 6px; }
 code { font: 0.88em "DejaVu Sans Mono", Consolas, Menlo, monospace; background: rgba(31, 35, 40, 0.06); padding: 1px 4px; border-radius: 3px;
