@@ -146,7 +146,10 @@ void ObservableModel::read_points() {
 void ObservableModel::choose_candidates() {
   all_candidates = problem.candidates;
   if (all_candidates.empty()) {
-    std::vector<std::string> names = effect_names();
+    std::vector<std::string> names;
+    // One realisation of a random effect is no signature; it can still be asked for by name.
+    for (const EffectDefinition& effect : effect_catalogue())
+      if (!effect.record.random) names.push_back(effect.record.name);
     for (const EffectRecord& record : contact_effect_records()) names.push_back(record.name);
     for (const std::string& name : names) {
       const std::string path = "Effects/" + name + "/Strength";
