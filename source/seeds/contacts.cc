@@ -59,13 +59,43 @@ std::vector<WallCandidate> candidates_of(const Contacts::Surroundings& now, doub
   return found;
 }
 
+// What this rank is to count of the lists: pairs whose first seed is its own, its own sub-spheres.
+ListSizes sizes_of(const Contacts::Surroundings& now, const std::vector<SpherePair>& pairs,
+                   const std::vector<WallCandidate>& at_walls, double skin, double reach) {
+  ListSizes sizes;
+  const Numbering& n = now.cloud.numbering;
+  std::vector<char> listed(n.n_spheres(), 0);  // 1: within the skin, 2: within half of it
+  const auto radius = [&](int sphere) {
+    const int t = n.store_of_sphere(sphere);
+    return now.stores[t].model.radius[(sphere - n.first_sphere[t]) % now.stores[t].n_spheres()];
+  };
+  const auto mark = [&](int sphere, bool close) { listed[sphere] |= close ? 3 : 1; };
+  for (const SpherePair& p : pairs) {
+    const double gap =
+        norm(now.cloud.position(p.first) - now.cloud.position(p.second)) - radius(p.first) - radius(p.second);
+    const bool close = gap < 0.5 * skin + reach;
+    mark(p.first, close), mark(p.second, close);
+    if (!now.own[seed_of(now, p.first)]) continue;
+    sizes.whole.pairs += 1, sizes.half.pairs += close;
+  }
+  for (const WallCandidate& c : at_walls) {
+    const bool close = may_touch(now.walls[c.wall], now.placements[c.wall], now.cloud.position(c.sphere),
+                                 radius(c.sphere) + 0.5 * skin + reach);
+    mark(c.sphere, close);
+    sizes.whole.at_walls += 1, sizes.half.at_walls += close;
+  }
+  for (int k = 0; k < n.n_spheres(); ++k)
+    if (listed[k] && now.own[seed_of(now, k)]) sizes.whole.spheres += 1, sizes.half.spheres += listed[k] >> 1;
+  return sizes;
+}
+
 }  // namespace
 
 void ContactParameters::declare(Parameters& p) {
   const auto section = p.section("Contacts", "Contacts of seeds with each other and with walls.");
-  p.number(
-      "Skin", skin, "m", Range::non_negative(),
-      "Contact lists hold pairs of sub-spheres with gaps below this. 0: a quarter of the smallest radius.");
+  p.number("Skin", skin, "m", Range::non_negative(),
+           "Contact lists hold pairs of sub-spheres with gaps below this; results do not depend on it. 0: "
+           "chosen while running, so that lists and searches together cost least.");
   p.flag("Normalise multiple contacts", normalise,
          "Let n simultaneous sub-sphere contacts between the same two seeds, or a seed and a wall, act with "
          "1/n of their stiffness and damping each.");
@@ -82,19 +112,10 @@ void Contacts::set_law(int a, int b, const ContactLaw& contact_law) {
   laws[law_number[a][b]] = contact_law;
 }
 
-double Contacts::skin_for(const std::vector<SeedStore>& stores, const ContactParameters& parameters) {
-  if (parameters.skin > 0) return parameters.skin;
-  double smallest = 1e300;
-  for (const SeedStore& s : stores)
-    if (!s.seed.empty())
-      smallest = std::min(smallest, *std::min_element(s.model.radius.begin(), s.model.radius.end()));
-  return 0.25 * smallest;
-}
-
-void Contacts::search(const Surroundings& now, const ContactParameters& parameters,
-                      const ContactHistory& history) {
+ListSizes Contacts::search(const Surroundings& now, double skin, bool normalise,
+                           const ContactHistory& history) {
   const Numbering& numbering = now.cloud.numbering;
-  listed_skin = skin_for(now.stores, parameters);
+  listed_skin = skin;
   double largest = 0, reach = 0;
   for (const SeedStore& s : now.stores)
     for (double r : s.model.radius) largest = std::max(largest, r);
@@ -139,34 +160,32 @@ void Contacts::search(const Surroundings& now, const ContactParameters& paramete
   }
   first_entry.push_back(static_cast<int>(places.size()));
   all_bodies.sum.resize(n_bodies);
-  list_pairs(now, parameters, history, found, entry_of);
-  list_walls(now, parameters, history, at_walls, entry_of);
+  list_pairs(now, normalise, history, found, entry_of);
+  list_walls(now, normalise, history, at_walls, entry_of);
+  return sizes_of(now, found, at_walls, skin, reach);
 }
 
-void Contacts::list_pairs(const Surroundings& now, const ContactParameters& parameters,
-                          const ContactHistory& history, const std::vector<SpherePair>& found,
-                          const std::vector<int>& entry_of) {
-  std::vector<int> law(found.size()), group(parameters.normalise ? found.size() : 0);
+void Contacts::list_pairs(const Surroundings& now, bool normalise, const ContactHistory& history,
+                          const std::vector<SpherePair>& found, const std::vector<int>& entry_of) {
+  std::vector<int> law(found.size()), group(normalise ? found.size() : 0);
   Groups groups;
   for (std::size_t k = 0; k < found.size(); ++k) {
     law[k] = law_number[material_of(now, found[k].first)][material_of(now, found[k].second)];
-    if (parameters.normalise)
-      group[k] = groups.number(seed_of(now, found[k].first), seed_of(now, found[k].second));
+    if (normalise) group[k] = groups.number(seed_of(now, found[k].first), seed_of(now, found[k].second));
   }
   pairs.set(found, law, group, entry_of, laws, all_bodies, history);
 }
 
-void Contacts::list_walls(const Surroundings& now, const ContactParameters& parameters,
-                          const ContactHistory& history, const std::vector<WallCandidate>& found,
-                          const std::vector<int>& entry_of) {
+void Contacts::list_walls(const Surroundings& now, bool normalise, const ContactHistory& history,
+                          const std::vector<WallCandidate>& found, const std::vector<int>& entry_of) {
   const Numbering& numbering = now.cloud.numbering;
-  std::vector<int> law(found.size()), group(parameters.normalise ? found.size() : 0), block(found.size());
+  std::vector<int> law(found.size()), group(normalise ? found.size() : 0), block(found.size());
   Groups groups;
   for (std::size_t k = 0; k < found.size(); ++k) {
     const int t = numbering.store_of_sphere(found[k].sphere), seed = seed_of(now, found[k].sphere);
     law[k] = law_number[now.stores[t].material][now.walls[found[k].wall].material];
     block[k] = now.first_block[t] + (seed - numbering.first_seed[t]) / lane_width;
-    if (parameters.normalise) group[k] = groups.number(seed, found[k].wall);
+    if (normalise) group[k] = groups.number(seed, found[k].wall);
   }
   on_walls.set(found, law, group, block, entry_of, laws, all_bodies, history);
 }

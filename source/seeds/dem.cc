@@ -15,7 +15,7 @@ constexpr long substeps_between_checks = 1000;
 }  // namespace
 
 Dem::Dem(const DemParameters& dem_parameters, MPI_Comm communicator)
-    : parameters(dem_parameters), share(communicator) {}
+    : parameters(dem_parameters), skin(dem_parameters.contacts.skin), share(communicator) {}
 
 void Dem::advance(double duration) {
   if (!(duration > 0)) return;
@@ -79,7 +79,8 @@ void Dem::evaluate_forces() {
 }
 
 void Dem::contact_forces(double time, double step) {
-  if (!contacts.is_listed() || travel.exceeds(store, share, largest_speed, wall_speed(time), step))
+  if (!contacts.is_listed() || travel.exceeds(store, share, largest_speed, wall_speed(time), step) ||
+      skin.is_stale(static_cast<double>(substeps - searched_at)))
     make_lists(time);
   else
     ghosts.bring(share, contacts.bodies());

@@ -20,6 +20,7 @@ void Dem::save(std::ostream& out) const {
   write_binary(out, arranged_seeds);
   write_binary(out, largest_speed);
   write_binary(out, forces_known);
+  skin.save(out);
   write_binary(out, wall_impulse);
   write_binary(out, wall_force);
   for (const Wall& w : all_walls) write_binary(out, w.active);
@@ -75,6 +76,7 @@ void Dem::load(std::istream& in) {
   read_binary(in, arranged_seeds);
   read_binary(in, largest_speed);
   read_binary(in, forces_known);
+  skin.load(in);
   read_binary(in, wall_impulse);
   read_binary(in, wall_force);
   for (Wall& w : all_walls) read_binary(in, w.active);

@@ -38,6 +38,7 @@ void Dem::make_lists(double time) {
     }
   ContactHistory known;
   if (contacts.is_listed()) {
+    skin.moved(travel.way(store, share), std::max(1.0, static_cast<double>(substeps - searched_at)));
     known = contacts.history();
   } else {
     known = std::move(parked);
@@ -45,7 +46,19 @@ void Dem::make_lists(double time) {
     parked = {};
   }
   const std::vector<Placement> place = placements(time);
-  contacts.search({store, cloud, own, first_block, all_walls, place}, parameters.contacts, known);
+  double smallest_sphere = 1e300, smallest_seed = 1e300;
+  for (const SeedStore& s : store) {
+    if (s.seed.empty()) continue;
+    smallest_sphere =
+        std::min(smallest_sphere, *std::min_element(s.model.radius.begin(), s.model.radius.end()));
+    smallest_seed = std::min(smallest_seed, s.model.bounding_radius);
+  }
+  ListSizes sizes =
+      contacts.search({store, cloud, own, first_block, all_walls, place},
+                      skin.begin(smallest_sphere, smallest_seed), parameters.contacts.normalise, known);
+  share.add_up(sizes);
+  skin.found(sizes, n_seeds(), n_spheres());
+  searched_at = substeps;
   ++searches;
   for (std::size_t t = 0; t < store.size(); ++t)
     for (int b = share.begin(t); b < share.end(t); ++b) contacts.place(first_block[t] + b, store[t], b);

@@ -77,6 +77,11 @@ void SeedShare::add_up(std::vector<Vec3>& values) const {
                   comm);
 }
 
+void SeedShare::add_up(ListSizes& sizes) const {
+  static_assert(sizeof(ListSizes) == 6 * sizeof(double));
+  if (ranks > 1) MPI_Allreduce(MPI_IN_PLACE, &sizes, 6, MPI_DOUBLE, MPI_SUM, comm);
+}
+
 void GhostExchange::set(const SeedShare& share, const Numbering& numbering,
                         const std::vector<SeedStore>& stores, const ContactBodies& bodies,
                         const PairList& pairs) {

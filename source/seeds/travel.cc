@@ -64,11 +64,13 @@ std::vector<double> Travel::two_longest(const std::vector<SeedStore>& stores, co
 bool Travel::exceeds(const std::vector<SeedStore>& stores, const SeedShare& share, double speed,
                      double wall_speed, double step) {
   of_pair += 2 * speed * step, of_seed += speed * step, of_walls += wall_speed * step;
-  const auto bound = [&] { return std::max(of_pair, of_seed + of_walls); };
-  if (bound() < reach) return false;
+  return bound() >= reach && way(stores, share) > 0.75 * reach;
+}
+
+double Travel::way(const std::vector<SeedStore>& stores, const SeedShare& share) {
   const std::vector<double> longest = two_longest(stores, share);
   of_pair = longest[0] + longest[1], of_seed = longest[0];
-  return bound() > 0.75 * reach;
+  return bound();
 }
 
 std::size_t Travel::bytes() const {

@@ -79,6 +79,7 @@ TEST(DemMpi, SameBitsAfterTenThousandSteps) {
     expect_same(shared, alone);
   }
   EXPECT_EQ(shared.n_substeps(), 10000);
+  EXPECT_EQ(shared.n_searches(), alone.n_searches()) << "the skin is chosen by what all ranks know";
   EXPECT_GT(shared.contact_network().size(), 10u);
 }
 

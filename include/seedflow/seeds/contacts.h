@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "seedflow/seeds/contact_list.h"
+#include "seedflow/seeds/neighbour_skin.h"
 #include "seedflow/seeds/wall_list.h"
 
 namespace seedflow {
@@ -11,7 +12,7 @@ class Parameters;
 
 struct ContactParameters {
   double skin =
-      0;  ///< lists hold pairs with gaps below the skin [m]; 0: a quarter of the smallest sub-sphere's radius
+      0;  ///< lists hold pairs with gaps below the skin [m]; 0: chosen while running, see NeighbourSkin
   bool normalise = false;  ///< n contacts between the same two seeds act as one
 
   void declare(Parameters& parameters);
@@ -44,13 +45,12 @@ class Contacts {
     const std::vector<Wall>& walls;
     const std::vector<Placement>& placements;
   };
-  /// Makes the lists anew; contacts in `history` keep what they remember. All entries are to be placed.
-  void search(const Surroundings& now, const ContactParameters& parameters, const ContactHistory& history);
+  /// Makes the lists of pairs with gaps below the skin anew; contacts in `history` keep what they remember.
+  /// All entries are to be placed. Returns what this rank listed.
+  ListSizes search(const Surroundings& now, double skin, bool normalise, const ContactHistory& history);
   bool is_listed() const { return listed_skin > 0; }
   void forget() { listed_skin = 0; }
   double skin() const { return listed_skin; }
-  /// The skin that search() will use [m].
-  static double skin_for(const std::vector<SeedStore>& stores, const ContactParameters& parameters);
 
   // Between the stores' blocks (numbered through) and the entries.
   /// Hands the sums of a block's bodies over and sets them to zero.
@@ -81,9 +81,9 @@ class Contacts {
   std::size_t bytes() const;
 
  private:
-  void list_pairs(const Surroundings& now, const ContactParameters& parameters, const ContactHistory& history,
+  void list_pairs(const Surroundings& now, bool normalise, const ContactHistory& history,
                   const std::vector<SpherePair>& found, const std::vector<int>& entry_of);
-  void list_walls(const Surroundings& now, const ContactParameters& parameters, const ContactHistory& history,
+  void list_walls(const Surroundings& now, bool normalise, const ContactHistory& history,
                   const std::vector<WallCandidate>& found, const std::vector<int>& entry_of);
   void place_rigid(int block, const SeedStore& store, int b);
   void place_plain_spheres(int block, const SeedStore& store, int b);

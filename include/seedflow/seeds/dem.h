@@ -221,6 +221,7 @@ class Dem {
   std::vector<ForceLanes> scratch;  ///< one block
   Contacts contacts;
   Travel travel;
+  NeighbourSkin skin;
   ContactHistory parked;  ///< while there are no lists; by the user's numbers of sub-spheres
   ContactHistory merged;  ///< of all ranks, at the end of advance(); by numbers in memory
   SeedShare share;
@@ -235,6 +236,7 @@ class Dem {
   double largest_speed = 0;  ///< of any sub-sphere at the last kick, all ranks [m/s]
   FastestSpeeds fastest;     ///< of this rank's seeds
   long substeps = 0, searches = 0;
+  long searched_at = 0;   ///< substep of the last search
   long arranged_at = -1;  ///< substep of the last sorting; -1: not sorted
   int arranged_seeds = 0;
   long seeds_at_start = -1;  ///< seeds added before the first advance(); -1: not begun

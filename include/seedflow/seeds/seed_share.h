@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seedflow/seeds/contact_list.h"
+#include "seedflow/seeds/neighbour_skin.h"
 #include "seedflow/seeds/numbering.h"
 
 namespace seedflow {
@@ -53,6 +54,7 @@ class SeedShare {
   double maximum(double a) const;
   /// Adds up; exact where all but one rank hold zero.
   void add_up(std::vector<Vec3>& values) const;
+  void add_up(ListSizes& sizes) const;
 
  private:
   void gather_bytes(int t, char* data, std::size_t bytes_per_block) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "seedflow/seeds/seed_share.h"
@@ -18,9 +19,12 @@ class Travel {
   /// a pair that is not listed may touch. All ranks give the same answer.
   bool exceeds(const std::vector<SeedStore>& stores, const SeedShare& share, double speed, double wall_speed,
                double step);
+  /// How far the two fastest seeds, or a seed and a wall, may have approached each other since begin() [m].
+  double way(const std::vector<SeedStore>& stores, const SeedShare& share);
   std::size_t bytes() const;
 
  private:
+  double bound() const { return std::max(of_pair, of_seed + of_walls); }
   struct Reference {
     std::vector<LaneVec3> sphere;  ///< of bonded seeds [own block * n_spheres + sub-sphere]
     std::vector<LaneVec3> centre;  ///< of rigid seeds [own block]
