@@ -6,6 +6,8 @@
 #include <regex>
 #include <set>
 
+#include "places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,7 +55,7 @@ TEST(Layers, TheRuleItselfIsChecked) {
 TEST(Layers, EachIncludesOnlyWhatStandsToItsLeft) {
   int files = 0;
   for (const char* top : {"include/seedflow", "source"}) {
-    const fs::path root = fs::path(SEEDFLOW_SOURCE_DIR) / top;
+    const fs::path root = fs::path(seedflow::places::source_dir) / top;
     for (const auto& item : fs::recursive_directory_iterator(root)) {
       const std::string extension = item.path().extension();
       if (!item.is_regular_file() || (extension != ".h" && extension != ".cc")) continue;
@@ -75,7 +77,8 @@ TEST(Layers, EachIncludesOnlyWhatStandsToItsLeft) {
 
 // ParameterHandler is an implementation detail of base/parameters.cc; its header costs seconds in every file.
 TEST(Layers, ParameterHandlerStaysOutOfHeaders) {
-  for (const auto& item : fs::recursive_directory_iterator(fs::path(SEEDFLOW_SOURCE_DIR) / "include")) {
+  for (const auto& item :
+       fs::recursive_directory_iterator(fs::path(seedflow::places::source_dir) / "include")) {
     if (!item.is_regular_file()) continue;
     std::ifstream in(item.path());
     const std::string text((std::istreambuf_iterator<char>(in)), {});

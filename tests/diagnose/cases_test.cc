@@ -3,18 +3,19 @@
 
 #include <cmath>
 
+#include "places.h"
 #include "seedflow/diagnose/problem_file.h"
 
 namespace seedflow {
 namespace {
 
 Diagnosis of_case(const std::string& name) {
-  return diagnose(read_problem(std::string(SEEDFLOW_SOURCE_DIR) + "/prm/diagnosis/" + name + ".prm", {}));
+  return diagnose(read_problem(std::string(places::source_dir) + "/prm/diagnosis/" + name + ".prm", {}));
 }
 
 TEST(Cases, MordantPintonNamesAddedMassAndHistory) {
   const Problem problem =
-      read_problem(std::string(SEEDFLOW_SOURCE_DIR) + "/prm/diagnosis/mordant_pinton.prm", {});
+      read_problem(std::string(places::source_dir) + "/prm/diagnosis/mordant_pinton.prm", {});
   const Diagnosis d = diagnose(problem);
   ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
   ASSERT_EQ(d.effects.size(), 2u) << d.sentence;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "places.h"
 #include "seedflow/effects/drag_laws.h"
 #include "seedflow/effects/single_body.h"
 
@@ -12,7 +13,7 @@ namespace seedflow {
 namespace {
 
 std::vector<std::vector<double>> read_table(const std::string& name) {
-  std::ifstream in(std::string(SEEDFLOW_SOURCE_DIR) + "/tests/effects/" + name);
+  std::ifstream in(std::string(places::source_dir) + "/tests/effects/" + name);
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(in, line);) {
     if (line.empty() || !std::isdigit(static_cast<unsigned char>(line[0]))) continue;

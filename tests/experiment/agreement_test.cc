@@ -5,6 +5,7 @@
 #include <new>
 #include <sstream>
 
+#include "places.h"
 #include "seedflow/base/error.h"
 #include "shell.h"
 
@@ -82,8 +83,8 @@ TEST(Agreement, RankThatFailsAloneEndsTheOthers) {
   std::filesystem::create_directories(folder);
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   const ShellResult result =
-      run_in_shell("timeout 60 " SEEDFLOW_MPIEXEC " --allow-run-as-root --oversubscribe -q -n 2 '" + self +
-                       "' --fail-on-one-rank",
+      run_in_shell(std::string("timeout 60 ") + places::mpiexec +
+                       " --allow-run-as-root --oversubscribe -q -n 2 '" + self + "' --fail-on-one-rank",
                    folder);
   EXPECT_EQ(result.status, 3);
   EXPECT_NE(result.err.find("Rank 1 of 2: this rank alone failed"), std::string::npos) << result.err;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "places.h"
 #include "seedflow/base/error.h"
 #include "shell.h"
 
@@ -148,7 +149,7 @@ TEST_F(CommandLineTest, OnlyRankZeroWrites) {
 
 // The program itself, as a user runs it: exit status, and messages on stderr alone.
 TEST_F(CommandLineTest, ProgramReturnsItsStatus) {
-  const std::string program = SEEDFLOW_MAIN;
+  const std::string program = places::main_program;
   const ShellResult help = run_in_shell(program + " --help", folder);
   EXPECT_EQ(help.status, 0);
   EXPECT_NE(help.out.find("run FILE.prm"), std::string::npos);
@@ -166,9 +167,10 @@ TEST_F(CommandLineTest, ProgramReturnsItsStatus) {
 }
 
 TEST_F(CommandLineTest, ProgramOnTwoRanksSpeaksOnce) {
-  const ShellResult result = run_in_shell(
-      SEEDFLOW_MPIEXEC " --allow-run-as-root --oversubscribe -q -n 2 " SEEDFLOW_MAIN " run missing.prm",
-      folder);
+  const ShellResult result =
+      run_in_shell(std::string(places::mpiexec) + " --allow-run-as-root --oversubscribe -q -n 2 " +
+                       places::main_program + " run missing.prm",
+                   folder);
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err, "missing.prm: this file cannot be opened. Check its name and that it can be read.\n");
 }

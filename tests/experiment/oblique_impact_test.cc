@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "places.h"
 #include "seedflow/base/error.h"
 #include "seedflow/effects/contact_effects.h"
 #include "seedflow/output/summary.h"
@@ -12,7 +13,7 @@
 namespace seedflow {
 namespace {
 
-const std::string prm = std::string(SEEDFLOW_SOURCE_DIR) + "/prm/oblique_impact.prm";
+const std::string prm = std::string(places::source_dir) + "/prm/oblique_impact.prm";
 
 RunOptions options(const std::vector<std::string>& overrides) {
   RunOptions o;

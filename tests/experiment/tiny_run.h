@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "places.h"
 #include "seedflow/base/error.h"
 #include "seedflow/experiment/agreement.h"
 #include "seedflow/experiment/command_line.h"
@@ -95,10 +96,10 @@ class TinyRun : public testing::Test {
   }
 
   static std::string command(const std::vector<std::string>& args, int ranks = 1) {
-    std::string line = ranks > 1 ? SEEDFLOW_MPIEXEC
-                                       " --allow-run-as-root --oversubscribe --bind-to none -q -n " +
-                                       std::to_string(ranks) + " " SEEDFLOW_MAIN
-                                 : SEEDFLOW_MAIN;
+    std::string line = places::main_program;
+    if (ranks > 1)
+      line = std::string(places::mpiexec) + " --allow-run-as-root --oversubscribe --bind-to none -q -n " +
+             std::to_string(ranks) + " " + line;
     for (const std::string& a : args) line += " '" + a + "'";
     return line;
   }
