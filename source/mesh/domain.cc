@@ -215,12 +215,78 @@ void Domain<dim>::save(const std::string& prefix) const {
 
 template <int dim>
 void Domain<dim>::load(const std::string& prefix) {
-  if (mesh->n_global_levels() > 1) {
+  present_angle = 0;
+  at_rest.clear();
+  changes_remembered = -1;
+  if (mesh->n_global_levels() > 1 || turning) {
     mesh->clear();
     build_coarse(*mesh);
     join_periodic_sides();
   }
   mesh->load(prefix, false);  // keep the saved partition: the same ranks own the same cells
+}
+
+template <int dim>
+void Domain<dim>::set_rotor(const Rotor<dim>& rotor) {
+  std::vector<char> part(mesh->n_vertices(), 0);
+  for (const auto& cell : mesh->cell_iterators_on_level(0))
+    for (const unsigned int v : cell->vertex_indices())
+      part[cell->vertex_index(v)] |= cell->material_id() == rotor.material ? 1 : 2;
+  const auto shared = std::count(part.begin(), part.end(), 3);
+  const std::string where = "The rotor (cells of material " + std::to_string(rotor.material) + ") ";
+  if (std::count(part.begin(), part.end(), 1) == 0)
+    throw InputError(where +
+                     "has no cells. Give the cells that turn this material id (in Gmsh: the tag of "
+                     "their Physical Volume).");
+  if (shared > 0)
+    throw InputError(where + "shares " + std::to_string(shared) +
+                     " vertices with the rest of the mesh. Rotor and stator must be separate bodies: mesh "
+                     "both surfaces of the sliding interface with vertices of their own.");
+  if (dim == 3 && !(rotor.axis.norm() > 0)) throw InputError(where + "has an axis of length zero.");
+  for (const auto& pair : rotor.pairs) {
+    side(pair.rotor);
+    side(pair.stator);
+  }
+  turning = std::make_unique<Rotor<dim>>(rotor);
+  present_angle = 0;
+  changes_remembered = -1;
+  mesh->signals.any_change.connect([count = mesh_changes] { ++*count; });
+}
+
+template <int dim>
+bool Domain<dim>::is_sliding(const std::string& name) const {
+  return turning && std::any_of(turning->pairs.begin(), turning->pairs.end(),
+                                [&](const auto& p) { return p.rotor == name || p.stator == name; });
+}
+
+template <int dim>
+void Domain<dim>::remember_vertices() {
+  if (changes_remembered == *mesh_changes) return;
+  changes_remembered = *mesh_changes;
+  at_rest.clear();
+  std::vector<char> seen(mesh->n_vertices(), 0);
+  for (const auto& cell : mesh->cell_iterators()) {
+    if (cell->material_id() != turning->material) continue;
+    for (const unsigned int v : cell->vertex_indices()) {
+      const unsigned int i = cell->vertex_index(v);
+      if (seen[i]) continue;
+      seen[i] = 1;
+      at_rest.emplace_back(
+          i, present_angle == 0 ? cell->vertex(v) : turning->turned(cell->vertex(v), -present_angle));
+    }
+  }
+}
+
+template <int dim>
+void Domain<dim>::turn_to(double angle) {
+  if (!turning) throw InputError("The air domain has no rotor to turn.");
+  if (angle == present_angle) return;
+  remember_vertices();
+  const auto rotation = turning->rotation(angle);
+  auto& vertices = const_cast<std::vector<dealii::Point<dim>>&>(mesh->get_vertices());
+  for (const auto& [i, x] : at_rest)
+    vertices[i] = angle == 0 ? x : turning->centre + rotation * (x - turning->centre);
+  present_angle = angle;
 }
 
 template <int dim>

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "seedflow/base/parameters.h"
+#include "seedflow/mesh/rotor.h"
 
 namespace seedflow {
 
@@ -61,6 +62,18 @@ class Domain {
   bool is_periodic(const std::string& name) const;
   const std::vector<Periodicity>& periodicities() const { return joined; }
 
+  /// A part of the mesh turns from now on; the mesh is at angle 0 now. Before anything (Fluid, point
+  /// location) is built on the domain. Errors: InputError if no cell has the rotor's material, if rotor and
+  /// stator share vertices, or if a pair names an unknown side.
+  void set_rotor(const Rotor<dim>& rotor);
+  const Rotor<dim>* rotor() const { return turning.get(); }  ///< null: nothing turns
+  /// Whether this side slides over another, see Rotor::pairs.
+  bool is_sliding(const std::string& name) const;
+  /// Turns the rotor's vertices to this angle [rad] from where they were in set_rotor(). Turning back to an
+  /// angle gives the same vertices to the last bit. All ranks; done for you by Fluid::turn_to.
+  void turn_to(double angle);
+  double angle() const { return present_angle; }
+
   double volume() const;         ///< [m^dim], all ranks
   double min_cell_size() const;  ///< shortest edge [m], all ranks
 
@@ -77,6 +90,7 @@ class Domain {
   std::vector<typename Triangulation::active_cell_iterator> cells_in_z_order() const;
 
  private:
+  void remember_vertices();
   void name_periodic_sides(const std::vector<std::string>& pairs);
   void join_periodic_sides();
 
@@ -85,6 +99,11 @@ class Domain {
   std::unique_ptr<dealii::Mapping<dim>> map;
   std::map<dealii::types::boundary_id, std::string> side_names;
   std::vector<Periodicity> joined;
+  std::unique_ptr<Rotor<dim>> turning;
+  double present_angle = 0;
+  std::shared_ptr<int> mesh_changes = std::make_shared<int>(0);
+  int changes_remembered = -1;
+  std::vector<std::pair<unsigned int, dealii::Point<dim>>> at_rest;  ///< the rotor's vertices at angle 0
 };
 
 }  // namespace seedflow
