@@ -7,12 +7,19 @@
 #include "seedflow/seeds/contact_geometry.h"
 
 namespace seedflow {
+namespace {
+
+// Cosine of the angle by which a contact's normal may turn in one substep. A sphere of 0.2 mm radius that
+// moves by 10 um around an edge turns by 3 degrees; faces that meet at more than 8 degrees are two contacts.
+constexpr double same_direction = 0.99;
+
+}  // namespace
 
 void WallList::set(const std::vector<WallCandidate>& candidates, const std::vector<int>& law,
                    const std::vector<int>& group, const std::vector<int>& block,
                    const std::vector<int>& entry_of, const std::vector<ContactLaw>& laws,
                    const ContactBodies& bodies, const ContactHistory& history) {
-  segments.clear(), candidate.clear(), touching.clear(), seat.clear();
+  segments.clear(), candidate.clear(), touching.clear(), point.clear(), seat.clear();
   memory.clear();
   first_fault = {};
   std::map<std::pair<int, int>, int> seat_of;
@@ -33,12 +40,26 @@ void WallList::set(const std::vector<WallCandidate>& candidates, const std::vect
       for (; old != history.on_wall.end() && old->sphere == c.sphere && old->wall == c.wall; ++old) {
         touching.push_back({number, old->feature, memory.take()});
         std::copy_n(old->memory, 8, memory[touching.back().line].value);
+        std::copy_n(old->normal, 3, point.emplace_back().value);
       }
     }
     segment.end = static_cast<int>(candidate.size());
     if (segment.end > segment.begin) segments.push_back(segment);
   }
   n_in_group.assign(group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1, 0);
+}
+
+int WallList::inherited_line(std::vector<Touching>::iterator old, std::vector<Touching>::iterator last,
+                             int present) {
+  auto from = last;
+  double best = same_direction;
+  for (; old != last; ++old) {
+    if (old->line < 0) continue;
+    const CacheLine &a = point[present], &b = point_before[old - before.begin()];
+    const double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    if (cosine > best) best = cosine, from = old;
+  }
+  return from != last ? std::exchange(from->line, -1) : memory.take();
 }
 
 void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
@@ -53,19 +74,17 @@ void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
     contacts_near(walls[c.wall], place[c.wall], sphere.position(), sphere.radius() + segment.reach, found);
     auto last = old;
     while (last != before.end() && last->candidate == k) ++last;
+    const int first_found = static_cast<int>(touching.size());
     for (const WallPoint& p : found) {
       if (p.distance < 0 && first_fault.sphere < 0) first_fault = {bodies.sphere[c.entry], c.wall};
       const auto same =
           std::find_if(old, last, [&](const Touching& t) { return t.feature == p.feature && t.line >= 0; });
-      int line;
-      if (same != last)
-        line = same->line, same->line = -1;
-      else
-        line = memory.take();
-      touching.push_back({k, p.feature, line});
+      touching.push_back({k, p.feature, same != last ? std::exchange(same->line, -1) : -1});
       point.push_back(
           {{p.normal.x, p.normal.y, p.normal.z, p.distance, p.velocity.x, p.velocity.y, p.velocity.z, 0}});
     }
+    for (int t = first_found; t < static_cast<int>(touching.size()); ++t)
+      if (touching[t].line < 0) touching[t].line = inherited_line(old, last, t);
     for (; old != last; ++old)
       if (old->line >= 0) memory.release(old->line);
   }
@@ -108,7 +127,7 @@ void WallList::add_segment(const Segment& segment, const ContactLaw& law, Contac
 
 void WallList::add_forces(const std::vector<ContactLaw>& laws, const std::vector<Wall>& walls,
                           const std::vector<Placement>& place, ContactBodies& bodies, double step) {
-  std::swap(touching, before);
+  std::swap(touching, before), std::swap(point, point_before);
   touching.clear(), point.clear();
   for (Segment& segment : segments) find_touching(segment, walls, place, bodies);
   std::fill(n_in_group.begin(), n_in_group.end(), 0);
@@ -123,10 +142,12 @@ void WallList::add_forces(const std::vector<ContactLaw>& laws, const std::vector
 }
 
 void WallList::collect(const ContactBodies& bodies, std::vector<ContactHistory::OnWall>& out) const {
-  for (const Touching& t : touching) {
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    const Touching& t = touching[k];
     const Candidate& c = candidate[t.candidate];
-    ContactHistory::OnWall contact{bodies.sphere[c.entry], c.wall, t.feature, {}};
+    ContactHistory::OnWall contact{bodies.sphere[c.entry], c.wall, t.feature, {}, {}};
     std::copy_n(memory[t.line].value, 8, contact.memory);
+    std::copy_n(point[k].value, 3, contact.normal);
     out.push_back(contact);
   }
 }
@@ -137,8 +158,9 @@ void WallList::add_wall_forces(double factor, int n_walls, std::vector<Vec3>& su
 
 std::size_t WallList::bytes() const {
   return memory.bytes() + candidate.capacity() * sizeof(Candidate) +
-         (touching.capacity() + before.capacity()) * sizeof(Touching) + point.capacity() * sizeof(CacheLine) +
-         seat.capacity() * sizeof(Seat) + n_in_group.capacity() * sizeof(int);
+         (touching.capacity() + before.capacity()) * sizeof(Touching) +
+         (point.capacity() + point_before.capacity()) * sizeof(CacheLine) + seat.capacity() * sizeof(Seat) +
+         n_in_group.capacity() * sizeof(int);
 }
 
 }  // namespace seedflow

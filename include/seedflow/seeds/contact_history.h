@@ -15,6 +15,7 @@ struct ContactHistory {
   struct OnWall {
     int sphere, wall, feature;
     double memory[8];
+    double normal[3];  ///< at the last substep
   };
   std::vector<Pair> pairs;      ///< sorted by first, second
   std::vector<OnWall> on_wall;  ///< sorted by sphere, wall, feature

@@ -18,7 +18,10 @@ struct WallFault {
 };
 
 /// Sub-spheres near walls and their contacts. One sphere may touch several features of a wall (faces, edges);
-/// each keeps its own memory. Order and arithmetic as in PairList.
+/// each keeps its own memory. Where a contact ends in the substep in which one with nearly the same normal
+/// begins, the sphere has passed from one feature to its neighbour (from an edge to a face, from facet to
+/// facet) and the new contact inherits the memory: friction does not notice how a surface is divided. Order
+/// and arithmetic as in PairList.
 class WallList {
  public:
   /// `candidates` sorted by sphere, wall; `law` and `group` (pairs of the same seed and wall) [candidate];
@@ -48,6 +51,8 @@ class WallList {
   struct Touching {
     int candidate, feature, line;
   };
+  int inherited_line(std::vector<Touching>::iterator old, std::vector<Touching>::iterator last, int present);
+
   struct Seat {
     int block, wall;
     Vec3 force;
@@ -59,8 +64,8 @@ class WallList {
 
   std::vector<Segment> segments;
   std::vector<Candidate> candidate;
-  std::vector<Touching> touching, before;  ///< sorted by candidate; features in the order they were found
-  std::vector<CacheLine> point;            ///< [touching] normal, distance, velocity of the wall
+  std::vector<Touching> touching, before;      ///< sorted by candidate; features in the order they were found
+  std::vector<CacheLine> point, point_before;  ///< [touching] normal, distance, velocity of the wall
   std::vector<int> n_in_group;
   std::vector<Seat> seat;
   std::vector<WallPoint> found;
