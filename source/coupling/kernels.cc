@@ -27,13 +27,14 @@ void add_sampled_kernel(PointExchange& row, const PointLocation<3>& location,
   // Neighbouring samples mostly share a cell; they are counted first and written once per cell.
   std::vector<std::pair<int, int>> count;  // cell, samples in it
   const double spacing = 2.0 * radius / samples, first = -radius + 0.5 * spacing;
+  int cell = PointLocation<3>::not_here;  // of the sample before: the first guess
   for (int i = 0; i < samples; ++i)
     for (int j = 0; j < samples; ++j)
       for (int k = 0; k < samples; ++k) {
         const Vec3 offset{first + i * spacing, first + j * spacing, first + k * spacing};
         if (norm_square(offset) > radius * radius) continue;
         const Vec3 x = centre + offset;
-        const int cell = location.cell_of({x.x, x.y, x.z});
+        cell = location.cell_of({x.x, x.y, x.z}, cell);
         if (cell == PointLocation<3>::not_here) continue;
         auto found = count.begin();
         while (found != count.end() && found->first != cell) ++found;

@@ -62,6 +62,10 @@ void Simulation::build_air() {
 }
 
 void Simulation::build_location() {
+  if (!parameters.domain.mesh_file.empty()) {
+    location.build(*domain);
+    return;
+  }
   std::array<unsigned int, 3> cells;
   for (int d = 0; d < 3; ++d) cells[d] = static_cast<unsigned int>(parameters.domain.cells[d]);
   location.build(domain->triangulation(), as_point(parameters.domain.lower),

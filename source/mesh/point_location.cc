@@ -1,5 +1,8 @@
 #include "seedflow/mesh/point_location.h"
 
+#include <deal.II/grid/cell_id.h>
+
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -41,6 +44,8 @@ void PointLocation<dim>::build(const Triangulation<dim>& triangulation, const Po
   }
   root.assign(n_roots, -1);
   node.clear();
+  parts.clear();
+  place.clear();
 
   std::vector<std::vector<std::int32_t>> owned_number(triangulation.n_levels());
   for (unsigned int level = 0; level < triangulation.n_levels(); ++level)
@@ -67,7 +72,83 @@ void PointLocation<dim>::build(const Triangulation<dim>& triangulation, const Po
 }
 
 template <int dim>
-int PointLocation<dim>::cell_of(const Point<dim>& point) const {
+void PointLocation<dim>::build(const Domain<dim>& domain, dealii::types::material_id turning) {
+  using Cell = typename Domain<dim>::Triangulation::active_cell_iterator;
+  struct Entry {
+    Cell cell;
+    dealii::CellId id;
+    std::int32_t number;
+  };
+  std::array<std::vector<Entry>, 2> entries;
+  std::vector<char> hanging(domain.triangulation().n_vertices(), 0);
+  std::int32_t count = 0;
+  for (const auto& cell : domain.triangulation().active_cell_iterators()) {
+    if (cell->is_artificial()) continue;
+    entries[cell->material_id() == turning].push_back(
+        {cell, cell->id(), cell->is_locally_owned() ? count++ : not_here});
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->has_children())
+        for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_face; ++v)
+          hanging[cell->face(f)->vertex_index(v)] = 1;
+  }
+  root.clear();
+  node.clear();
+  parts.clear();
+  place.assign(count, {});
+  for (auto& group : entries) {
+    // The order is that of the whole mesh, so that all ranks decide alike.
+    std::sort(group.begin(), group.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
+    std::vector<MultilinearCell<dim>> cells;
+    for (const Entry& entry : group) {
+      std::array<Point<dim>, 1 << dim> vertices;
+      const auto corners = domain.mapping().get_vertices(entry.cell);
+      std::copy(corners.begin(), corners.end(), vertices.begin());
+      cells.emplace_back(vertices);
+      cells.back().number = entry.number;
+      // A cell of a coarse face, or next to one: its vertices are those of that face.
+      const auto touches = [&](const auto& of) {
+        for (const unsigned int v : of->vertex_indices())
+          if (hanging[of->vertex_index(v)]) return true;
+        return false;
+      };
+      cells.back().alone =
+          !touches(entry.cell) && (entry.cell->level() == 0 || !touches(entry.cell->parent()));
+      if (!cells.back().alone) cells.back().reach = gap;
+      if (entry.number != not_here)
+        place[entry.number] = {static_cast<std::uint32_t>(parts.size()),
+                               static_cast<std::uint32_t>(cells.size() - 1)};
+    }
+    parts.push_back({CellBins<dim>(std::move(cells))});
+  }
+}
+
+template <int dim>
+void PointLocation<dim>::turn(double angle) {
+  if (parts.empty()) throw std::logic_error("PointLocation: a lattice of boxes has no turning part");
+  parts[1].cosine = std::cos(angle);
+  parts[1].sine = std::sin(angle);
+}
+
+template <int dim>
+std::size_t PointLocation<dim>::memory_consumption() const {
+  std::size_t bytes = (root.capacity() + node.capacity()) * sizeof(std::int32_t) +
+                      place.capacity() * sizeof(Place) + sizeof(*this);
+  for (const Part& part : parts) bytes += part.bins.memory_consumption();
+  return bytes;
+}
+
+template <int dim>
+int PointLocation<dim>::cell_of(const Point<dim>& point, int guess) const {
+  if (!parts.empty()) {
+    if (guess != not_here) {
+      const Part& part = parts[place[guess].part];
+      if (part.bins.holds(place[guess].cell, part.back(point))) return guess;
+    }
+    typename CellBins<dim>::Found found;
+    for (const Part& part : parts)
+      if (!found.certain) part.bins.search(part.back(point), found);
+    return found.number;
+  }
   std::array<double, dim> fraction;
   std::size_t index = 0;
   for (int d = dim - 1; d >= 0; --d) {

@@ -7,37 +7,54 @@
 #include <cstdint>
 #include <vector>
 
+#include "seedflow/mesh/cell_bins.h"
+#include "seedflow/mesh/domain.h"
+
 namespace seedflow {
 
-/// Finds the locally owned cell of a point on a box mesh: a lattice of coarse cells, each the root of an
-/// octree. The tree is copied into two flat integer arrays once per mesh change, so that one look-up is a
-/// lattice division and one array read per refinement level (tens of nanoseconds, see `./seedflow bench
-/// locate`).
+/// Finds the locally owned cell of a point. Cells are numbered as in QuadratureLayout: locally owned active
+/// cells in traversal order. Built once per mesh change; `./seedflow bench locate` measures it.
 ///
-/// Cells are numbered as in QuadratureLayout: locally owned active cells in traversal order.
-/// A point on a face between two cells belongs to the one on its upper side; on the upper boundary of the
-/// box, to the last cell. A point outside the box has no cell.
+/// On a box mesh, a lattice of coarse cells each the root of an octree, the tree is copied into two flat
+/// integer arrays: one look-up is a lattice division and one array read per refinement level. A point on a
+/// face between two cells belongs to the one on its upper side; on the upper boundary of the box, to the last
+/// cell. A point outside the box has no cell.
+///
+/// On any other mesh of hexahedra (quadrilaterals) with straight edges, the cells' bounding boxes are sorted
+/// into bins and the trilinear map is inverted. A point on a face belongs to the first of its cells in the
+/// mesh's hierarchical order. Where hanging nodes on a curved face leave a gap or an overlap, it belongs to
+/// the cell that it is deepest in or nearest to. The same on any number of ranks: a rank knows its ghost
+/// cells, too. (Points on the interface to a turning part may be found on both of its sides.)
 template <int dim>
 class PointLocation {
  public:
-  static constexpr int not_here = -1;  ///< outside the box, or in a cell of another rank
+  static constexpr int not_here = -1;  ///< outside the mesh, or in a cell of another rank
+  /// How far outside its cell, in parts of the width, a point in a gap at hanging nodes may lie.
+  static constexpr double gap = 0.3;
 
   PointLocation() = default;
+
+  /// For any mesh. Cells of the material `turning` form a part that may turn about the z axis (in 2D about
+  /// the origin) without being built again.
+  static constexpr dealii::types::material_id none = dealii::numbers::invalid_material_id;
+  void build(const Domain<dim>& domain, dealii::types::material_id turning = none);
+  /// The angle by which the turning part has turned since build() [rad].
+  void turn(double angle);
 
   /// \param lower,upper corners of the box [m]; `coarse_cells` per direction. Throws std::logic_error if the
   /// triangulation's coarse cells do not form this lattice.
   void build(const dealii::Triangulation<dim>& triangulation, const dealii::Point<dim>& lower,
              const dealii::Point<dim>& upper, const std::array<unsigned int, dim>& coarse_cells);
 
-  int cell_of(const dealii::Point<dim>& point) const;
+  /// \param guess a cell that may well be the one, e.g. that of a point nearby; it is tried first.
+  int cell_of(const dealii::Point<dim>& point, int guess = not_here) const;
 
-  /// Calls visit(cell) for every locally owned cell that overlaps the axis-aligned box [low, high].
+  /// Calls visit(cell) for every locally owned cell that overlaps the axis-aligned box [low, high] (unless
+  /// the mesh is a lattice: whose bounding box does, in a part that has turned a little more).
   template <typename Visit>
   void cells_in_box(const dealii::Point<dim>& low, const dealii::Point<dim>& high, const Visit& visit) const;
 
-  std::size_t memory_consumption() const {
-    return (root.capacity() + node.capacity()) * sizeof(std::int32_t) + sizeof(*this);
-  }
+  std::size_t memory_consumption() const;
 
  private:
   // A node >= 0 is the index of the first of 2^dim children in `node`; a node < 0 is a leaf: -1 means not
@@ -52,12 +69,43 @@ class PointLocation {
   std::array<int, dim> coarse_cells{};
   std::vector<std::int32_t> root;  ///< one entry per coarse cell, x fastest
   std::vector<std::int32_t> node;  ///< children, 2^dim in a row, x fastest
+
+  /// Cells that move as one. The search takes place where they were at build().
+  struct Part {
+    CellBins<dim> bins;
+    double cosine = 1, sine = 0;
+    dealii::Point<dim> back(const dealii::Point<dim>& x) const {
+      dealii::Point<dim> y = x;
+      y[0] = cosine * x[0] + sine * x[1];
+      y[1] = cosine * x[1] - sine * x[0];
+      return y;
+    }
+  };
+  struct Place {
+    std::uint32_t part, cell;
+  };
+  std::vector<Part> parts;   ///< empty: a lattice
+  std::vector<Place> place;  ///< of each owned cell
 };
 
 template <int dim>
 template <typename Visit>
 void PointLocation<dim>::cells_in_box(const dealii::Point<dim>& low, const dealii::Point<dim>& high,
                                       const Visit& visit) const {
+  for (const Part& part : parts) {
+    dealii::Point<dim> first = low, last = high;
+    if (part.sine != 0 || part.cosine != 1) {
+      const dealii::Point<dim> centre = part.back(low + 0.5 * (high - low));
+      const double x = 0.5 * (high[0] - low[0]), y = 0.5 * (high[1] - low[1]);
+      const double half[2] = {std::abs(part.cosine) * x + std::abs(part.sine) * y,
+                              std::abs(part.cosine) * y + std::abs(part.sine) * x};
+      for (int d = 0; d < 2; ++d) first[d] = centre[d] - half[d], last[d] = centre[d] + half[d];
+    }
+    part.bins.in_box(first, last, [&](std::int32_t cell) {
+      if (cell != not_here) visit(static_cast<int>(cell));
+    });
+  }
+  if (!parts.empty()) return;
   std::array<int, 3> first{}, last{};
   for (int d = 0; d < dim; ++d) {
     const double a = (low[d] - origin[d]) * inverse_coarse_size[d],
