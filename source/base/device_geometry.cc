@@ -106,4 +106,14 @@ double DeviceGeometry::exposure(double angle) const {
   return part_beyond(distance / hole_radius());
 }
 
+std::vector<Vec3> DeviceGeometry::sucking_holes(double turned) const {
+  std::vector<Vec3> places;
+  for (int k = 0; k < n_holes(); ++k) {
+    if (exposure(hole_angle(k, turned)) <= 0) continue;
+    const Vec3 mouth = hole_centre(k, turned);
+    for (const double part : {0.0, 0.5, 1.0}) places.push_back(mouth + Vec3{0, 0, part * thickness});
+  }
+  return places;
+}
+
 }  // namespace seedflow

@@ -29,6 +29,27 @@ std::int32_t copy_tree(const typename Triangulation<dim>::cell_iterator& cell,
   return static_cast<std::int32_t>(first);
 }
 
+/// Whether the hanging nodes of a refined face lie off the face's own (bi-)linear shape.
+template <int dim, typename Face>
+bool bends(const Face& face) {
+  constexpr int n = 1 << (dim - 1);
+  const double scale = face->diameter();
+  for (int child = 0; child < n; ++child)
+    for (int v = 0; v < n; ++v) {
+      dealii::Tensor<1, dim> off = face->child(child)->vertex(v);
+      for (int w = 0; w < n; ++w) {
+        double weight = 1;
+        for (int d = 0; d < dim - 1; ++d) {
+          const double t = 0.5 * ((child >> d & 1) + (v >> d & 1));
+          weight *= w >> d & 1 ? t : 1 - t;
+        }
+        off -= weight * face->vertex(w);
+      }
+      if (off.norm() > 1e-8 * scale) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 template <int dim>
@@ -72,22 +93,25 @@ void PointLocation<dim>::build(const Triangulation<dim>& triangulation, const Po
 }
 
 template <int dim>
-void PointLocation<dim>::build(const Domain<dim>& domain, dealii::types::material_id turning) {
+void PointLocation<dim>::build(const Domain<dim>& domain) {
   using Cell = typename Domain<dim>::Triangulation::active_cell_iterator;
   struct Entry {
     Cell cell;
     dealii::CellId id;
     std::int32_t number;
   };
-  std::array<std::vector<Entry>, 2> entries;
+  rotor.reset();
+  if (domain.rotor()) rotor = *domain.rotor();
+  built_at = domain.angle();
+  std::vector<std::vector<Entry>> entries(rotor ? 2 : 1);
   std::vector<char> hanging(domain.triangulation().n_vertices(), 0);
   std::int32_t count = 0;
   for (const auto& cell : domain.triangulation().active_cell_iterators()) {
     if (cell->is_artificial()) continue;
-    entries[cell->material_id() == turning].push_back(
+    entries[rotor && cell->material_id() == rotor->material].push_back(
         {cell, cell->id(), cell->is_locally_owned() ? count++ : not_here});
     for (const unsigned int f : cell->face_indices())
-      if (cell->face(f)->has_children())
+      if (cell->face(f)->has_children() && bends<dim>(cell->face(f)))
         for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_face; ++v)
           hanging[cell->face(f)->vertex_index(v)] = 1;
   }
@@ -118,15 +142,17 @@ void PointLocation<dim>::build(const Domain<dim>& domain, dealii::types::materia
         place[entry.number] = {static_cast<std::uint32_t>(parts.size()),
                                static_cast<std::uint32_t>(cells.size() - 1)};
     }
-    parts.push_back({CellBins<dim>(std::move(cells))});
+    parts.push_back({CellBins<dim>(std::move(cells)), false, {}, {}});
   }
 }
 
 template <int dim>
-void PointLocation<dim>::turn(double angle) {
-  if (parts.empty()) throw std::logic_error("PointLocation: a lattice of boxes has no turning part");
-  parts[1].cosine = std::cos(angle);
-  parts[1].sine = std::sin(angle);
+void PointLocation<dim>::turn_to(double angle) {
+  if (!rotor) throw std::logic_error("PointLocation: nothing turns in this domain");
+  Part& part = parts.back();
+  part.turned = angle != built_at;
+  part.centre = rotor->centre;
+  part.back = rotor->rotation(built_at - angle);
 }
 
 template <int dim>
@@ -142,11 +168,11 @@ int PointLocation<dim>::cell_of(const Point<dim>& point, int guess) const {
   if (!parts.empty()) {
     if (guess != not_here) {
       const Part& part = parts[place[guess].part];
-      if (part.bins.holds(place[guess].cell, part.back(point))) return guess;
+      if (part.bins.holds(place[guess].cell, part.before(point))) return guess;
     }
     typename CellBins<dim>::Found found;
     for (const Part& part : parts)
-      if (!found.certain) part.bins.search(part.back(point), found);
+      if (!found.certain) part.bins.search(part.before(point), found);
     return found.number;
   }
   std::array<double, dim> fraction;

@@ -79,12 +79,15 @@ void RefinementParameters::declare(Parameters& p) {
            "Cells with a larger difference of velocity within them are refined; 0: not used.");
   p.number("Seed distance", seed_distance, "m", Range::non_negative(),
            "Cells nearer than this to a seed are refined; 0: not used.");
+  p.number("Hole distance", hole_distance, "m", Range::non_negative(),
+           "Cells nearer than this to the axis of a device's hole that faces the vacuum are refined; 0: not "
+           "used.");
 }
 
 template <int dim>
 bool flag_cells(const RefinementParameters& p, Domain<dim>& domain, const QuadratureLayout<dim>& layout,
                 const std::vector<double>& void_fraction, const std::vector<double>& velocity_jump,
-                const std::vector<dealii::Point<dim>>& seeds) {
+                const std::vector<dealii::Point<dim>>& seeds, const std::vector<dealii::Point<dim>>& holes) {
   if (p.min_level > p.max_level)
     throw InputError("Adaptive refinement: Lowest level " + std::to_string(p.min_level) +
                      " is above Highest level " + std::to_string(p.max_level) + ". Exchange them.");
@@ -94,7 +97,7 @@ bool flag_cells(const RefinementParameters& p, Domain<dim>& domain, const Quadra
         "Adaptive refinement: the fields given do not belong to the present mesh; use Fluid::layout().");
   const bool by_eps = p.void_fraction_jump > 0 && !void_fraction.empty();
   const bool by_velocity = p.velocity_jump > 0 && !velocity_jump.empty();
-  const bool by_seeds = p.seed_distance > 0;
+  const bool by_seeds = p.seed_distance > 0, by_holes = p.hole_distance > 0;
   const std::vector<double> contrast =
       by_eps ? void_fraction_contrast(domain, layout, void_fraction) : std::vector<double>();
   double flagged = 0;
@@ -103,20 +106,22 @@ bool flag_cells(const RefinementParameters& p, Domain<dim>& domain, const Quadra
     if (!cell->is_locally_owned()) continue;
     cell->clear_refine_flag();
     cell->clear_coarsen_flag();
-    bool refine = cell->level() < p.min_level, coarsen = by_eps || by_velocity || by_seeds;
+    bool refine = cell->level() < p.min_level, coarsen = by_eps || by_velocity || by_seeds || by_holes;
     const auto judge = [&](double value, double threshold) {
       refine = refine || value > threshold;
       coarsen = coarsen && value < 0.5 * threshold;
     };
     if (by_eps) judge(contrast[c], p.void_fraction_jump);
     if (by_velocity) judge(velocity_jump[c], p.velocity_jump);
-    if (by_seeds) {
+    const auto keep_fine_near = [&](const std::vector<dealii::Point<dim>>& places, double reach) {
       double nearest = 1e300;
       const auto box = cell->bounding_box();
-      for (const auto& x : seeds) nearest = std::min(nearest, distance(x, box));
-      refine = refine || nearest < p.seed_distance;
-      coarsen = coarsen && nearest > 2 * p.seed_distance;
-    }
+      for (const auto& x : places) nearest = std::min(nearest, distance(x, box));
+      refine = refine || nearest < reach;
+      coarsen = coarsen && nearest > 2 * reach;
+    };
+    if (by_seeds) keep_fine_near(seeds, p.seed_distance);
+    if (by_holes) keep_fine_near(holes, p.hole_distance);
     if ((refine && cell->level() < p.max_level)) {
       cell->set_refine_flag();
       ++flagged;
@@ -131,9 +136,9 @@ bool flag_cells(const RefinementParameters& p, Domain<dim>& domain, const Quadra
 
 template bool flag_cells(const RefinementParameters&, Domain<2>&, const QuadratureLayout<2>&,
                          const std::vector<double>&, const std::vector<double>&,
-                         const std::vector<dealii::Point<2>>&);
+                         const std::vector<dealii::Point<2>>&, const std::vector<dealii::Point<2>>&);
 template bool flag_cells(const RefinementParameters&, Domain<3>&, const QuadratureLayout<3>&,
                          const std::vector<double>&, const std::vector<double>&,
-                         const std::vector<dealii::Point<3>>&);
+                         const std::vector<dealii::Point<3>>&, const std::vector<dealii::Point<3>>&);
 
 }  // namespace seedflow

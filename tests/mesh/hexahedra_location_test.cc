@@ -173,7 +173,7 @@ TEST(HexahedraLocationMpi, aTurningPartIsFoundWhereItIsWithoutBuildingAgain) {
   Coarse inner, outer, both;
   const Point<3> on_axis(0, 0, 0);
   dealii::Triangulation<2> disc, ring;
-  dealii::GridGenerator::hyper_ball_balanced(disc, Point<2>(), 1.0);
+  dealii::GridGenerator::hyper_ball_balanced(disc, Point<2>(), 0.999);
   dealii::GridGenerator::hyper_shell(ring, Point<2>(), 1.0, 2.0, 16);
   disc.refine_global(2);
   dealii::Triangulation<2> flat;
@@ -182,9 +182,10 @@ TEST(HexahedraLocationMpi, aTurningPartIsFoundWhereItIsWithoutBuildingAgain) {
   dealii::GridGenerator::extrude_triangulation(ring, 3, 1.0, outer);
   for (const auto& cell : inner.active_cell_iterators()) cell->set_material_id(1);
   dealii::GridGenerator::merge_triangulations(inner, outer, both, 0);
-  const Domain<3> domain = domain_of(both);
+  Domain<3> domain = domain_of(both);
+  domain.set_rotor({});
   PointLocation<3> location;
-  location.build(domain, 1);
+  location.build(domain);
   const double angle = 0.7;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-1.9, 1.9);
@@ -192,16 +193,26 @@ TEST(HexahedraLocationMpi, aTurningPartIsFoundWhereItIsWithoutBuildingAgain) {
     const Point<3> x(uniform(random), uniform(random), 0.25 * (uniform(random) + 2));
     const double r = std::hypot(x[0], x[1]);
     if (r > 1.9 || std::abs(r - 1) < 0.03) continue;  // facets of the interface do not match when turned
-    location.turn(0);
+    location.turn_to(0);
     const int before = location.cell_of(x);
-    location.turn(angle);
+    location.turn_to(angle);
     const Point<3> turned(std::cos(angle) * x[0] - std::sin(angle) * x[1],
                           std::sin(angle) * x[0] + std::cos(angle) * x[1], x[2]);
     EXPECT_EQ(location.cell_of(r < 1 ? turned : x), before);
+    EXPECT_EQ(location.cell_of(r < 1 ? turned : x, before), before);
     bool visited = before == PointLocation<3>::not_here;
     const Point<3> at = r < 1 ? turned : x;
     location.cells_in_box(at, at, [&](int c) { visited = visited || c == before; });
     EXPECT_TRUE(visited);
+  }
+  // Built where the rotor has turned to, it finds the same.
+  domain.turn_to(angle);
+  PointLocation<3> anew;
+  anew.build(domain);
+  for (int i = 0; i < 2000; ++i) {
+    const Point<3> x(uniform(random), uniform(random), 0.25 * (uniform(random) + 2));
+    if (std::abs(std::hypot(x[0], x[1]) - 1) < 0.03) continue;
+    EXPECT_EQ(anew.cell_of(x), location.cell_of(x));
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "seedflow/base/vector.h"
 
 namespace seedflow {
@@ -49,6 +51,9 @@ struct DeviceGeometry {
   /// The part of a hole at this angle that the vacuum chamber's arc covers, by area, in [0, 1]; the arc's
   /// ends are radial edges.
   double exposure(double angle) const;
+  /// Points along the axes of the holes that face the vacuum, from the front: mouth, middle and end of each
+  /// [m].
+  std::vector<Vec3> sucking_holes(double turned) const;
 };
 
 }  // namespace seedflow

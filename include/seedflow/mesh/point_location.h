@@ -4,7 +4,9 @@
 #include <deal.II/grid/tria.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "seedflow/mesh/cell_bins.h"
@@ -34,12 +36,10 @@ class PointLocation {
 
   PointLocation() = default;
 
-  /// For any mesh. Cells of the material `turning` form a part that may turn about the z axis (in 2D about
-  /// the origin) without being built again.
-  static constexpr dealii::types::material_id none = dealii::numbers::invalid_material_id;
-  void build(const Domain<dim>& domain, dealii::types::material_id turning = none);
-  /// The angle by which the turning part has turned since build() [rad].
-  void turn(double angle);
+  /// For any mesh. The cells of the domain's rotor, if it has one, need not be built again when it turns.
+  void build(const Domain<dim>& domain);
+  /// The rotor stands at this angle now [rad], see Domain::angle().
+  void turn_to(double angle);
 
   /// \param lower,upper corners of the box [m]; `coarse_cells` per direction. Throws std::logic_error if the
   /// triangulation's coarse cells do not form this lattice.
@@ -73,18 +73,19 @@ class PointLocation {
   /// Cells that move as one. The search takes place where they were at build().
   struct Part {
     CellBins<dim> bins;
-    double cosine = 1, sine = 0;
-    dealii::Point<dim> back(const dealii::Point<dim>& x) const {
-      dealii::Point<dim> y = x;
-      y[0] = cosine * x[0] + sine * x[1];
-      y[1] = cosine * x[1] - sine * x[0];
-      return y;
+    bool turned = false;
+    dealii::Point<dim> centre;
+    dealii::Tensor<2, dim> back;  ///< rotation from where they are to where they were
+    dealii::Point<dim> before(const dealii::Point<dim>& x) const {
+      return turned ? centre + back * (x - centre) : x;
     }
   };
   struct Place {
     std::uint32_t part, cell;
   };
-  std::vector<Part> parts;   ///< empty: a lattice
+  std::vector<Part> parts;  ///< empty: a lattice; the last is the rotor, if there is one
+  std::optional<Rotor<dim>> rotor;
+  double built_at = 0;       ///< angle of the rotor at build() [rad]
   std::vector<Place> place;  ///< of each owned cell
 };
 
@@ -94,12 +95,15 @@ void PointLocation<dim>::cells_in_box(const dealii::Point<dim>& low, const deali
                                       const Visit& visit) const {
   for (const Part& part : parts) {
     dealii::Point<dim> first = low, last = high;
-    if (part.sine != 0 || part.cosine != 1) {
-      const dealii::Point<dim> centre = part.back(low + 0.5 * (high - low));
-      const double x = 0.5 * (high[0] - low[0]), y = 0.5 * (high[1] - low[1]);
-      const double half[2] = {std::abs(part.cosine) * x + std::abs(part.sine) * y,
-                              std::abs(part.cosine) * y + std::abs(part.sine) * x};
-      for (int d = 0; d < 2; ++d) first[d] = centre[d] - half[d], last[d] = centre[d] + half[d];
+    if (part.turned) {
+      const dealii::Tensor<1, dim> half = 0.5 * (high - low);
+      const dealii::Point<dim> middle = part.before(low + half);
+      for (int d = 0; d < dim; ++d) {
+        double reach = 0;
+        for (int e = 0; e < dim; ++e) reach += std::abs(part.back[d][e]) * half[e];
+        first[d] = middle[d] - reach;
+        last[d] = middle[d] + reach;
+      }
     }
     part.bins.in_box(first, last, [&](std::int32_t cell) {
       if (cell != not_here) visit(static_cast<int>(cell));
