@@ -1,5 +1,6 @@
 #include "seedflow/experiment/granular_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -17,6 +18,17 @@ int rank_of(MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   return rank;
+}
+
+/// The largest of a column of series.csv.
+double largest(const Series& series, const std::string& column) {
+  return *std::max_element(series[column].begin(), series[column].end());
+}
+
+void add_contacts(const Series& series, Summary& summary) {
+  summary.observe("largest_overlap", largest(series, "largest overlap"), "1");
+  summary.observe("neighbours_per_seed", series["neighbours per seed"].back(), "1");
+  summary.observe("contacts_per_pair", series["contacts per pair"].back(), "1");
 }
 
 }  // namespace
@@ -41,6 +53,7 @@ int GranularJob::say_what_it_will_be() const {
 int GranularJob::finish(Summary& summary, const std::function<void()>& write_files) const {
   together(MPI_COMM_WORLD, [&] {
     if (!writes) return;
+    add_contacts(read_series(std::filesystem::path(options.output) / "series.csv"), summary);
     write_files();
     // Last: a folder with a summary holds a finished run.
     summary.write(std::filesystem::path(options.output) / "summary.json");
@@ -73,10 +86,20 @@ LinePlot energy_plot(const Series& series, int n_seeds) {
 }
 
 void add_numbers(const Summary& summary, Report& report) {
+  for (const auto& [name, words] : summary.texts())
+    if (name == "notice") report.paragraph(words);
+  report.paragraph(
+      "The largest overlap of a contact was " + fixed(100 * summary.observable("largest_overlap"), 1) +
+      " % of a sub-sphere's radius, looked up whenever a row of `series.csv` was written; at the end a "
+      "seed touched " +
+      fixed(summary.observable("neighbours_per_seed"), 1) +
+      " seeds and walls, and two touching seeds met in " + fixed(summary.observable("contacts_per_pair"), 1) +
+      " sub-sphere contacts.");
   add_summary_tables(summary, report);
   report.paragraph(
       "`series.csv` has the course in time; `seeds.pvd` opens in ParaView (show as Point Gaussian, scaled by "
-      "radius, coloured by group); `summary.json` has these numbers for programs.");
+      "radius, coloured by group) together with `walls.vtp` and `moving_walls.pvd`; `summary.json` has these "
+      "numbers for programs.");
 }
 
 std::string fixed(double value, int digits) {

@@ -171,14 +171,17 @@ void GranularRun::fill(const Parameters& p, SupervisedRun& run) {
 
 void GranularRun::carry_out(const Parameters& p, const RunOptions& options, Summary& summary) {
   SupervisedRun run(p, options, comm, [this](CheckpointWriter& c) { save(c); });
-  if (options.resume)
-    run.resume([this](CheckpointReader& c) { load(c); },
-               {"Run/End time", "Run/Checkpoint interval", "Filling/Cache", "Study/"});
+  if (options.resume) {
+    std::vector<std::string> may_change = scene.only_measuring;
+    may_change.insert(may_change.end(),
+                      {"Run/End time", "Run/Checkpoint interval", "Filling/Cache", "Study/"});
+    run.resume([this](CheckpointReader& c) { load(c); }, may_change);
+  }
   std::optional<double> resumed;
   if (start_time >= 0) resumed = time();
   if (!resumed) fill(p, run);
 
-  GranularRecorder recorder(parameters, scene, options.output, comm, resumed);
+  GranularRecorder recorder(parameters, scene, seeds, options.output, comm, resumed);
   const auto record = [&] { recorder.record(seeds, time()); };
   if (!resumed) record();
   const long n_intervals =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/output/report.h"
 
 namespace seedflow {
@@ -87,7 +88,7 @@ Agreement agreement(const Sweep& sweep, const std::string& quantity) {
 
 void write_impact_report(const std::vector<Sweep>& sweeps, const ObliqueImpactParameters& p,
                          const RunOptions& options) {
-  Report report("Oblique impact of a sphere on a plane", "./seedflow " + options.prm, "seedflow");
+  Report report("Oblique impact of a sphere on a plane", command_of(options), "seedflow");
   std::ostringstream lead;
   lead << "A sphere of " << 1e3 * p.diameter << " mm (" << p.sphere_material << ") against a plane ("
        << p.plane_material << ") at " << p.speed << " m/s, restitution " << p.contact().restitution

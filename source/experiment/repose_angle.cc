@@ -110,6 +110,7 @@ GranularScene ReposeAngle::scene() const {
     }
   };
   s.not_of_filling = {"Angle/", "Tester/Board speed"};
+  s.only_measuring = {"Angle/"};
   return s;
 }
 

@@ -1,9 +1,11 @@
 // Experiment "repose angle" as a user gets it: run, summary, report.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sstream>
 
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/granular_report.h"
 #include "seedflow/experiment/repose_angle.h"
 
@@ -61,7 +63,7 @@ LinePlot boundary_plot(const HeapAngle& heap) {
 void write_report(const ReposeAngle& experiment, const GranularRun& run, const HeapAngle& heap,
                   const Summary& summary, const RunOptions& options) {
   namespace reference = repose_reference;
-  Report report("Angle of repose", "./seedflow " + options.prm, "seedflow");
+  Report report("Angle of repose", command_of(options), "seedflow");
   std::ostringstream lead;
   lead << seeds_in_words(run, experiment.granular) << ", " << experiment.granular.mass
        << " kg, fall from a box whose board is pulled away at " << experiment.board_speed
@@ -108,18 +110,24 @@ int run_repose_angle(const RunOptions& options) {
   job.run.carry_out(parameters, options, summary);
   const HeapAngle heap = experiment.measure(job.run.dem());
   int below = 0;
-  for (int s = 0; s < job.run.dem().n_seeds(); ++s)
-    below += job.run.dem().seed_state(s).centre.z < experiment.drop;
+  double height = 0;
+  for (int s = 0; s < job.run.dem().n_seeds(); ++s) {
+    const double z = job.run.dem().seed_state(s).centre.z;
+    if (z < experiment.drop) ++below, height += z;
+  }
   summary.observe("angle", heap.mean / degree, "deg");
   summary.observe("angle_left", heap.left.angle / degree, "deg");
   summary.observe("angle_right", heap.right.angle / degree, "deg");
   summary.observe("heap_height", heap.height, "m");
+  summary.observe("heap_mean_height", height / std::max(1, below), "m");  // scatters less than the angle
   summary.observe("seeds_in_the_heap", below, "1");
   summary.observe("measured_angle", repose_reference::measured, "deg");
   summary.observe("measured_angle_deviation", repose_reference::deviation, "deg");
   return job.finish(summary, [&] {
     write_file_atomically(std::filesystem::path(options.output) / "heap.svg",
                           picture(experiment, job.run.dem(), &heap, "").svg());
+    write_series(std::filesystem::path(options.output) / "heap_boundary.csv",
+                 {{{"x", "m"}, {"height", "m"}}, {heap.boundary.x, heap.boundary.y}});
     write_report(experiment, job.run, heap, summary, options);
     std::cout << "angle of repose " << fixed(heap.mean / degree, 2) << " degrees (left "
               << fixed(heap.left.angle / degree, 2) << ", right " << fixed(heap.right.angle / degree, 2)
@@ -143,8 +151,7 @@ int run_repose_angle_study(const RunOptions& options) {
   if (!study.carry_out()) return exit_done;
 
   namespace reference = repose_reference;
-  Report report("Angle of repose: seed models beside the measurement", "./seedflow " + options.prm,
-                "seedflow");
+  Report report("Angle of repose: seed models beside the measurement", command_of(options), "seedflow");
   report.lead(
       "The paper's angle of repose experiment with its five seed models (Table 2), rigid and bonded, in both "
       "readings of the printed sub-sphere sizes, with and without an equal mean caliper.");

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/granular_report.h"
 #include "seedflow/experiment/measurements.h"
 #include "seedflow/experiment/rotating_drum.h"
@@ -102,7 +103,7 @@ void add_profile(const RotatingDrum& drum, const VelocityProfile& profile, Summa
 void write_report(const RotatingDrum& drum, const GranularRun& run, const RotatingDrum::Gathered& gathered,
                   const BedContour& bed, const Series& series, const Summary& summary,
                   const RunOptions& options) {
-  Report report("Rotating drum", "./seedflow " + options.prm, "seedflow");
+  Report report("Rotating drum", command_of(options), "seedflow");
   std::ostringstream lead;
   lead << seeds_in_words(run, drum.granular) << " in a drum of radius " << 1e3 * drum.radius
        << " mm and length " << 1e3 * drum.length << " mm, " << fixed(drum.speed / rpm, 1) << " rpm, "
@@ -235,7 +236,7 @@ int run_rotating_drum_study(const RunOptions& options) {
   for (const std::string& column : mixing_columns(drum)) observables.push_back(observable_of(column));
   observables.insert(observables.end(), {"dynamic_angle", "angle_in_the_middle"});
   const StudyTable table = study.table(observables);
-  Report report("Rotating drum: seed models beside the measurement", "./seedflow " + options.prm, "seedflow");
+  Report report("Rotating drum: seed models beside the measurement", command_of(options), "seedflow");
   report.lead(
       "The paper's rotating container experiment with its seed models (Table 2): mixing index against "
       "revolutions and the dynamic contour.");

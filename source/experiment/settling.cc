@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "seedflow/base/interrupt.h"
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/run_loop.h"
 #include "seedflow/experiment/settling_reference.h"
 #include "seedflow/output/folder.h"
@@ -128,7 +129,7 @@ void add_settling_observables(const Series& seeds, const SimulationParameters& p
 
 void write_settling_report(const Series& seeds, const SimulationParameters& p, const Summary& summary,
                            const RunOptions& options) {
-  Report report("Settling of one bonded seed", "./seedflow " + options.prm, "seedflow");
+  Report report("Settling of one bonded seed", command_of(options), "seedflow");
   std::ostringstream lead;
   lead << "A seed of " << 1e3 * p.seeds.model.diameter << " mm made of " << p.seeds.model.n_spheres
        << " sub-spheres falls from rest through a fluid of density " << p.air.density

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/settling_reference.h"
 #include "seedflow/experiment/settling_study.h"
 #include "seedflow/output/folder.h"
@@ -193,8 +194,7 @@ void write_settling_study(const std::vector<SettlingResult>& results, double sin
   }
   write_file_atomically(folder / "settling_study.csv", csv.str());
 
-  Report report("Settling: five models, two readings, two kinds of drag", "./seedflow " + options.prm,
-                "seedflow");
+  Report report("Settling: five models, two readings, two kinds of drag", command_of(options), "seedflow");
   report.lead(
       "The paper's sedimentation experiment (Xu et al. 2024, section 3.2.4) with every reading that its text "
       "allows, "

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "seedflow/base/interrupt.h"
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/measurements.h"
 #include "seedflow/experiment/run_loop.h"
 #include "seedflow/experiment/settling.h"
@@ -88,7 +89,7 @@ Comparison compare(const Condition& condition, const std::vector<Measurement>& d
 }
 
 void write_report(const std::vector<Comparison>& all, const RunOptions& options) {
-  Report report("A sphere settling in a closed tank", "./seedflow " + options.prm, "seedflow");
+  Report report("A sphere settling in a closed tank", command_of(options), "seedflow");
   report.lead(
       "A 15 mm sphere in silicone oil at four Reynolds numbers, beside the measurements of ten Cate et al. "
       "(2002). Walls and floor act through the flow that is computed in the tank.");

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/single_seed.h"
 #include "seedflow/output/folder.h"
 #include "seedflow/output/report.h"
@@ -38,7 +39,7 @@ Series series_of(const std::vector<double>& times, const std::vector<SingleSeedS
 }
 
 void write_report(const SingleSeedParameters& p, const Series& s, const RunOptions& options) {
-  Report report("One seed in a prescribed flow", "./seedflow " + options.prm, "seedflow");
+  Report report("One seed in a prescribed flow", command_of(options), "seedflow");
   std::ostringstream lead;
   lead << "A seed of " << 1e3 * p.seed.diameter << " mm and " << p.seed.density << " kg/m3 in a fluid of "
        << p.density << " kg/m3 and " << p.viscosity << " Pa s.";

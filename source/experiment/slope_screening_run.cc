@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/granular_report.h"
 #include "seedflow/experiment/slope_screening.h"
 
@@ -71,7 +72,7 @@ BarPlot passing_plot(const std::vector<BarSeries>& series) {
 
 void write_report(const SlopeScreening& e, const GranularRun& run, const RegionCensus& bins,
                   const Summary& summary, const RunOptions& options) {
-  Report report("Slope screening", "./seedflow " + options.prm, "seedflow");
+  Report report("Slope screening", command_of(options), "seedflow");
   std::ostringstream lead;
   lead << seeds_in_words(run, e.granular) << " flow down a plate with " << e.n_holes() << " holes of "
        << 1e3 * e.hole << " mm, " << 1e3 * e.pitch << " mm apart, inclined by "
@@ -164,8 +165,7 @@ int run_slope_screening_study(const RunOptions& options) {
   GranularStudy study(input.study, options, "slope screening", run_slope_screening, used_text<Input>);
   if (!study.carry_out()) return exit_done;
 
-  Report report("Slope screening: seed models beside the measurement", "./seedflow " + options.prm,
-                "seedflow");
+  Report report("Slope screening: seed models beside the measurement", command_of(options), "seedflow");
   const StudyTable table = study.table(observable_names());
   const bool inclined = !input.study.axis.values.empty();
   if (inclined) {

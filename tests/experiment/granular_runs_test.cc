@@ -157,8 +157,9 @@ TEST_F(GranularRuns, DryRunSaysWhatItWillBe) {
 // ---- Runs ----
 
 TEST_F(GranularRuns, ReposeAngleLeavesAllFiles) {
-  ASSERT_EQ(run_here(with("repose.prm")).status, exit_done);
-  for (const char* name : {"summary.json", "used.prm", "series.csv", "seeds.pvd", "report.html", "heap.svg"})
+  ASSERT_EQ(run_here(with("repose.prm", {"Tester/Outlet=18 mm"})).status, exit_done);
+  for (const char* name : {"summary.json", "used.prm", "series.csv", "seeds.pvd", "walls.vtp",
+                           "moving_walls.pvd", "report.html", "heap.svg"})
     EXPECT_TRUE(fs::exists(out() / name)) << name;
   const Summary summary = Summary::read(out() / "summary.json");
   EXPECT_EQ(summary.observable("seeds"), 267);  // 12 g / 4.4903e-5 kg
@@ -168,7 +169,31 @@ TEST_F(GranularRuns, ReposeAngleLeavesAllFiles) {
   const Series series = read_series(out() / "series.csv");
   EXPECT_LT(series["kinetic energy"].back(), 1e-2 * series["potential energy"].front());
   EXPECT_LT(series["potential energy"].back(), series["potential energy"].front());
-  expect_contains(read_file(out() / "report.html"), "<svg");
+  const std::string report = read_file(out() / "report.html");
+  expect_contains(report, "<svg");
+  expect_contains(report, "--set &quot;Tester/Outlet=18 mm&quot;");
+  expect_contains(report, "Reduced shear moduli: all are 0.001 times");
+  // Two to twelve neighbours in a heap; balls have one contact per pair. Softened a thousandfold, overlaps
+  // are to be seen, but no ball has gone through another.
+  EXPECT_GT(summary.observable("neighbours_per_seed"), 2);
+  EXPECT_LT(summary.observable("neighbours_per_seed"), 12);
+  EXPECT_EQ(summary.observable("contacts_per_pair"), 1);
+  EXPECT_GT(summary.observable("largest_overlap"), 0.01);
+  EXPECT_LT(summary.observable("largest_overlap"), 0.5);
+}
+
+// The board is there before the start; while it is pulled away it has moved; then it is gone.
+TEST_F(GranularRuns, WallsThatMoveAreSeenMoving) {
+  ASSERT_EQ(run_here(with("repose.prm", {"Run/Field interval=0.1 s", "Run/End time=0.25 s"})).status,
+            exit_done);
+  const std::string first = read_file(out() / "moving_walls_00000.vtp"),
+                    second = read_file(out() / "moving_walls_00001.vtp"),
+                    third = read_file(out() / "moving_walls_00002.vtp");
+  expect_contains(first, "NumberOfPolys=\"1\"");
+  expect_contains(third, "NumberOfPolys=\"0\"");
+  expect_contains(second, "NumberOfPolys=\"1\"");
+  EXPECT_NE(first, second);
+  expect_contains(read_file(out() / "walls.vtp"), "Name=\"wall\"");
 }
 
 TEST_F(GranularRuns, ResumedRunIsTheSameToTheLastBit) {

@@ -37,6 +37,8 @@ struct GranularScene {
   std::function<std::vector<double>(const Dem&, double time)> observe;
   /// Entries and sections ("Drum/Speed", "Run/") that do not change the settled filling.
   std::vector<std::string> not_of_filling;
+  /// Those that change nothing but how the seeds are measured: a resumed run may change them.
+  std::vector<std::string> only_measuring;
   /// State of the measurement, for checkpoints.
   std::function<void(std::ostream&)> save = nullptr;
   std::function<void(std::istream&)> load = nullptr;
