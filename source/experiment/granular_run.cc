@@ -9,6 +9,7 @@
 #include "seedflow/base/together.h"
 #include "seedflow/experiment/granular_recorder.h"
 #include "seedflow/seeds/feeder.h"
+#include "seedflow/seeds/resting_tilt.h"
 
 namespace seedflow {
 
@@ -16,6 +17,11 @@ namespace {
 
 constexpr double shortest_filling = 0.1;      // [s], seeds are at rest in the air at first
 constexpr double shortest_resettling = 0.05;  // [s], of a filling from the cache
+
+/// Rounded to a tenth.
+double degrees(double radians) {
+  return std::round(1800 / M_PI * radians) / 10;
+}
 
 }  // namespace
 
@@ -212,6 +218,8 @@ void GranularRun::add_balances(double wall_time, Summary& summary) const {
   summary.observe("time", time(), "s");
   summary.observe("filling_time", start_time, "s");
   summary.observe("seeds", n_at_start, "1");
+  if (const auto tilt = seeds.n_seeds() > 0 ? resting_tilt(seeds.seed_template(0)) : std::nullopt)
+    summary.observe("resting_tilt", 180 / M_PI * tilt->mean, "deg");
   summary.observe("kinetic_energy_per_seed", seeds.n_seeds() > 0 ? kinetic_energy_per_seed(seeds) : 0, "J");
   int cores = 1;
   MPI_Comm_size(comm, &cores);
@@ -230,7 +238,12 @@ std::string GranularRun::describe() const {
        << (parameters.rigid || seeds.seed_template(0).n_spheres() == 1
                ? "rigid"
                : "bonded by " + std::to_string(seeds.seed_template(0).bond.size()) + " bonds each")
-       << "\nWalls:      ";
+       << "\n";
+  if (const auto tilt = resting_tilt(seeds.seed_template(0)))
+    text << "Rolling:    such a seed stands still on slopes of " << degrees(tilt->mean)
+         << " degrees on average (" << degrees(tilt->smallest) << " to " << degrees(tilt->largest)
+         << "), whatever the coefficient of rolling friction\n";
+  text << "Walls:      ";
   for (std::size_t w = 0; w < scene.walls.size(); ++w) text << (w > 0 ? ", " : "") << scene.walls[w].name;
   text << "\nSteps:      about " << std::llround(steps) << " of at most " << parameters.dem.time_step
        << " s for " << time << " s; limits:\n";
