@@ -66,6 +66,7 @@ std::vector<BenchResult> locate() {
   const PointLocationRate r = measure_point_location(MPI_COMM_SELF);
   return {{"locate/look-up", r.look_up_ms, "ms per coupling step"},
           {"locate/table", r.build_ms, "ms per mesh change"},
+          {"locate/first look-up, hexahedra", r.hexahedra_first_ms, "ms per mesh change"},
           {"locate/look-up, hexahedra", r.hexahedra_look_up_ms, "ms per coupling step"},
           {"locate/table, hexahedra", r.hexahedra_build_ms, "ms per mesh change"},
           {"locate/points", static_cast<double>(r.n_points), "1"},

@@ -1,6 +1,7 @@
 #include "seedflow/base/parameters.h"
 #include "seedflow/experiment/experiment.h"
 #include "seedflow/experiment/oblique_impact.h"
+#include "seedflow/experiment/orifice.h"
 #include "seedflow/experiment/repose_angle.h"
 #include "seedflow/experiment/rotating_drum.h"
 #include "seedflow/experiment/settling.h"
@@ -22,6 +23,8 @@ std::vector<Experiment> experiment_catalogue() {
        describe_oblique_impact, oblique_impact_observer},
       {"single seed", "one seed in a prescribed flow, in milliseconds", run_single_seed_experiment,
        describe_single_seed, single_seed_observer},
+      {"orifice", "air through one hole of a disc, beside a published discharge coefficient",
+       run_orifice_experiment, describe_orifice},
       {"repose angle", "seeds fall from a box and form a heap", run_repose_angle, describe_repose_angle},
       {"repose angle study", "its angle for the paper's seed models, with repeats", run_repose_angle_study,
        describe_repose_angle},

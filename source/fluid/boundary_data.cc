@@ -27,7 +27,7 @@ int rank_of(BoundaryType type) {
       return 5;
   }
 }
-bool is_open(BoundaryType type) {
+bool gives_pressure(BoundaryType type) {
   return type == BoundaryType::pressure_inlet || type == BoundaryType::pressure_outlet;
 }
 bool gives_velocity(BoundaryType type) {
@@ -42,6 +42,17 @@ bool BoundaryData<dim, degree>::is_inlet(int side) const {
 }
 
 template <int dim, int degree>
+bool BoundaryData<dim, degree>::is_open(int side) const {
+  return gives_pressure(condition[side].type);
+}
+
+template <int dim, int degree>
+bool BoundaryData<dim, degree>::lets_through(int side) const {
+  const BoundaryType type = condition[side].type;
+  return gives_pressure(type) || type == BoundaryType::velocity_inlet || type == BoundaryType::moving_wall;
+}
+
+template <int dim, int degree>
 BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domain,
                                         const BoundaryConditions<dim>& conditions)
     : space(s) {
@@ -51,7 +62,7 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
     index[id] = names.size();
     names.push_back(name);
     condition.push_back(conditions.at(name));
-    has_open_side = has_open_side || is_open(condition.back().type);
+    has_open_side = has_open_side || gives_pressure(condition.back().type);
   }
 
   constexpr int n = Space::n, n_q = Space::n_q;
@@ -106,11 +117,12 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
           if (decides && (chosen[d][node] < 0 || rank_of(type) < rank_of(condition[chosen[d][node]].type)))
             chosen[d][node] = side;
         }
-        if (is_open(type)) chosen_pressure[node] = side;
+        if (gives_pressure(type)) chosen_pressure[node] = side;
       }
       if (!owned) continue;
       Face face;
       face.place = s.place[number];
+      face.side = side;
       for (unsigned int q = 0; q < rule.size(); ++q) {
         const auto point = domain.mapping().transform_real_to_unit_cell(cell, values.quadrature_point(q));
         face.normal.push_back(values.normal_vector(q) * values.JxW(q));
@@ -167,11 +179,11 @@ void BoundaryData<dim, degree>::set_pressure(double time, NodalVector& p) const 
 }
 
 template <int dim, int degree>
-std::pair<double, double> BoundaryData<dim, degree>::subtract_flux(const std::array<NodalVector, dim>& u,
-                                                                   const PointField& void_fraction,
-                                                                   NodalVector& y) const {
+double BoundaryData<dim, degree>::subtract_flux(const std::array<NodalVector, dim>& u,
+                                                const PointField& void_fraction, NodalVector& y,
+                                                std::vector<double>* outflow) const {
   constexpr int n = Space::n, n_q = Space::n_q, W = Space::W;
-  double inflow = 0, net = 0;
+  double inflow = 0;
   for (const Face& face : faces) {
     const std::size_t group = face.place / W, lane = face.place % W;
     double contribution[n] = {};
@@ -185,13 +197,13 @@ std::pair<double, double> BoundaryData<dim, degree>::subtract_flux(const std::ar
         eps += face.extrapolate[q * n_q + k] * void_fraction[group * n_q + k][lane];
       if (!(eps > 0 && eps <= 1)) eps = void_fraction[group * n_q + face.nearest[q]][lane];
       const double flux = eps * (velocity * face.normal[q]);
-      net += flux;
+      if (outflow) (*outflow)[face.side] += flux;
       inflow += std::max(0.0, -flux);
       for (int i = 0; i < n; ++i) contribution[i] -= flux * face.value[q * n + i];
     }
     space.add(contribution, face.place, y);
   }
-  return {inflow, net};
+  return inflow;
 }
 
 template <int dim, int degree>

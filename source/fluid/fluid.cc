@@ -18,6 +18,7 @@ Fluid<dim, degree>::Implementation::Implementation(const FluidParameters& p, Dom
   coefficients.full_stress = p.viscous_stress == "full";
   coefficients.stabilization = p.pressure_stabilization;
   coefficients.upwinding = p.streamline_upwinding;
+  coefficients.eddy_viscosity = p.eddy_viscosity * p.eddy_constant * p.eddy_constant;
   coefficients.degree = degree;
   space = std::make_unique<NodalSpace<dim, degree>>(domain);
   set_up();

@@ -68,6 +68,7 @@ struct Fluid<dim, degree>::Implementation {
   double smallest_flow() const { return 1e-8 * domain_volume / coefficients.time.dt; }
   double time = 0, dt_old = 0;
   int steps_since_start = 0;
+  std::vector<double> side_outflow;  ///< of this rank, while a step ends [m^dim/s]
   MassBalance mass;
   MomentumBalance<dim> momentum_balance;
   Vector momentum;

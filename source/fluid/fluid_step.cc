@@ -89,7 +89,7 @@ void Fluid<dim, degree>::Implementation::solve_momentum() {
       }
     }
     boundary->set_velocity(time + coefficients.time.dt, fields.u);
-    if (coefficients.full_stress)
+    if (coefficients.full_stress || coefficients.eddy_viscosity > 0)
       for (auto& u : fields.u) {
         u.update_ghost_values();
         space->set_constrained(u);
@@ -154,7 +154,7 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
       pressure_matrix_valid = true;
     }
     scale = std::sqrt(sum(assemble_pressure_rhs(*space, coefficients, fields, scalar_rhs)));
-    inflow = sum(boundary->subtract_flux(fields.u, fields.eps, scalar_rhs).first);
+    inflow = sum(boundary->subtract_flux(fields.u, fields.eps, scalar_rhs));
     scalar_rhs.compress(dealii::VectorOperation::add);
   }
   if (singular) {
@@ -180,18 +180,9 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
     }
   }
   const CpuTimer timer(statistics.pressure_solve);
-  // Relative to the right-hand side of the equation for the whole pressure, |b + A p_old|, and to the flow
-  // through the cells, whichever is less; not below round-off of the latter.
   fields.phi.zero_out_ghost_values();
   phi_before.zero_out_ghost_values();
   const auto& fixed = boundary->pressure_fixed;
-  double whole = 0;
-  for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i)
-    if (!fixed[i])
-      whole += std::pow(scalar_rhs.local_element(i) + pressure_matrix->row_times(i, fields.p), 2);
-  const double tolerance =
-      std::max(parameters.pressure_tolerance * std::min(std::sqrt(sum(whole)), scale), 1e-15 * scale);
-  pressure_target = std::max(2 * tolerance, 1e-13 * scale);
   if (steps_since_start > 2) {
     phi_before.sadd(-1.0, 2.0, fields.phi);
     phi_before.swap(fields.phi);
@@ -202,6 +193,25 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
   boundary->set_pressure(time + coefficients.time.dt, fields.phi);
   for (const auto& node : boundary->fixed_pressure)
     fields.phi.local_element(node.node) -= fields.p.local_element(node.node);
+  // Relative to the right-hand side of the equation for the whole pressure, |b + A p_old|, and to the flow
+  // through the cells, whichever is less, both with the flow that a change of the given pressures drives (all
+  // there is when air at rest starts to move); not below round-off.
+  NodalVector given(fields.phi);
+  for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i)
+    if (!fixed[i] || space->constrained[i]) given.local_element(i) = 0;
+  given.update_ghost_values();
+  double squares[2] = {};
+  for (std::uint32_t i = 0; i < space->structure->n_owned(); ++i)
+    if (!fixed[i]) {
+      const double driven = pressure_matrix->row_times(i, given);
+      squares[0] += std::pow(scalar_rhs.local_element(i) + pressure_matrix->row_times(i, fields.p), 2);
+      squares[1] += driven * driven;
+    }
+  const double whole = std::sqrt(sum(squares[0])), driven = std::sqrt(sum(squares[1]));
+  const double least = 1e-15 * std::max(scale, driven);
+  const double tolerance = std::max(
+      parameters.pressure_tolerance * std::min(std::max(whole, driven), std::max(scale, driven)), least);
+  pressure_target = std::max(2 * tolerance, 100 * least);
   const auto solve = [&] {
     return conjugate_gradients(*pressure_matrix, *pressure_preconditioner, fixed, singular, fields.phi,
                                scalar_rhs, tolerance, parameters.max_iterations);
@@ -233,7 +243,8 @@ template <int dim, int degree>
 std::pair<StepIntegrals<dim>, double> Fluid<dim, degree>::Implementation::correct() {
   StepIntegrals<dim> integrals = correct_velocity(*space, coefficients, fields, scalar_rhs);
   const auto subtract_flux = [&] {
-    const double inflow = boundary->subtract_flux(fields.u, fields.eps, scalar_rhs).first;
+    side_outflow.assign(boundary->names.size(), 0.0);
+    const double inflow = boundary->subtract_flux(fields.u, fields.eps, scalar_rhs, &side_outflow);
     scalar_rhs.compress(dealii::VectorOperation::add);
     return inflow;
   };
@@ -288,6 +299,12 @@ void Fluid<dim, degree>::Implementation::finish_step() {
     largest = std::isfinite(r) ? std::max(largest, std::abs(r)) : INFINITY;
     total += r;
   }
+  std::vector<double> side_power(boundary->names.size(), 0.0);
+  for (const auto& node : boundary->fixed_pressure) {
+    const double out = scalar_rhs.local_element(node.node);
+    side_outflow[node.side] += out;
+    side_power[node.side] += out * (fields.p.local_element(node.node) + fields.phi.local_element(node.node));
+  }
   // Momentum: reactions of given velocities, momentum through open sides, sums over all ranks at once.
   const std::size_t n_sides = boundary->names.size();
   std::vector<double> sums;
@@ -310,6 +327,7 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   fields.p.update_ghost_values();
   for (const Vector& f : boundary->pressure_force(fields.p))
     for (int d = 0; d < dim; ++d) sums.push_back(f[d]);
+  for (const auto* a : {&side_outflow, &side_power}) sums.insert(sums.end(), a->begin(), a->end());
   for (const double a : {inflow, through_open_sides, integrals.growth, integrals.circulation, total})
     sums.push_back(a);
   double volume = 0, p_sum = 0;
@@ -350,6 +368,14 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   for (const auto& name : boundary->names) {
     balance.pressure_force[name] = vector();
     scale = std::max(scale, balance.pressure_force[name].norm());
+  }
+  for (std::size_t side = 0; side < n_sides; ++side) {
+    const double out = *next++;
+    if (boundary->lets_through(side)) mass.outflow[boundary->names[side]] = out;
+  }
+  for (std::size_t side = 0; side < n_sides; ++side) {
+    const double power = *next++;
+    if (boundary->is_open(side)) mass.power[boundary->names[side]] = power;
   }
   balance.residual = scale > 0 ? left.norm() / scale : 0;
   const double in = *next++, out = *next++, growth = *next++, circulation = *next++, sum_residual = *next++;

@@ -1,8 +1,23 @@
 #include "cell_point.h"
+#include "seedflow/fluid/eddy_viscosity.h"
 
 namespace seedflow {
 
 namespace {
+
+/// Dynamic viscosity with that of the eddies of the velocity `u` (nodal values of the cells) [Pa s].
+template <int dim, int degree>
+Lanes viscosity_at(const NodalSpace<dim, degree>& space, const StepCoefficients& c, const CellPoint<dim>& at,
+                   int q, const Lanes (&u)[dim][NodalSpace<dim, degree>::n]) {
+  if (c.eddy_viscosity == 0) return broadcast(c.viscosity);
+  Lanes g[dim][dim];
+  for (int d = 0; d < dim; ++d) gradient(space, at, q, u[d], g[d]);
+  // Delta = volume^(1/dim)/k; unused lanes have no volume.
+  const Lanes volume = at.weight / space.shape.weight[q];
+  const Lanes edge = dim == 3 ? lane_cbrt(volume) : lane_sqrt(volume);
+  const Lanes width2 = edge * edge / double(degree * degree);
+  return c.viscosity + c.density * c.eddy_viscosity * width2 * wale_rate<dim>(g);
+}
 
 template <int dim, int degree, bool dynamic>
 void project_terms(const NodalSpace<dim, degree>& space, const StepCoefficients& c, FlowFields<dim>& fields) {
@@ -95,7 +110,7 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
     space.gather(fields.p, group, p);
     for (int d = 0; d < dim; ++d) gather_projected(space, c, fields, group, d, y[d]);
     Lanes u[dim][n];
-    if (c.full_stress)
+    if (c.full_stress || c.eddy_viscosity > 0)
       for (int d = 0; d < dim; ++d) space.gather(fields.u[d], group, u[d]);
 
     Lanes mass[n_q], carry[n_q], react[n_q], upwind[n_q], viscous[n_q][dim][dim], w_ref[n_q][dim];
@@ -112,16 +127,17 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
       at.to_reference(w, w_ref[q]);
       const Lanes speed_by_h = length<dim>(w_ref[q]), inverse_h2 = at.inverse_h2();
       const Lanes m = c.inertia(eps, beta), share = c.share(eps);
-      const Lanes theta = c.theta(m, eps, speed_by_h, inverse_h2);
+      const Lanes mu = viscosity_at<dim, degree>(space, c, at, q, u);
+      const Lanes theta = c.theta(m, eps, mu, speed_by_h, inverse_h2);
       fields.theta.at(k) = theta;
-      upwind[q] = c.upwind_time(eps, beta, speed_by_h, inverse_h2);
+      upwind[q] = c.upwind_time(eps, beta, mu, speed_by_h, inverse_h2);
 
       mass[q] = m * at.weight;
       carry[q] = c.density * eps * at.weight;
       react[q] = (beta - rate * (old + older)) * at.weight;
       at.metric(viscous[q]);
       for (int e = 0; e < dim; ++e)
-        for (int f = 0; f < dim; ++f) viscous[q][e][f] *= c.viscosity * eps * at.weight;
+        for (int f = 0; f < dim; ++f) viscous[q][e][f] *= mu * eps * at.weight;
 
       Lanes g[dim];
       gradient(space, at, q, p, g);
@@ -144,8 +160,7 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
         for (int d = 0; d < dim; ++d) {
           Lanes stress[dim], reference[dim];
           for (int a = 0; a < dim; ++a)
-            stress[a] =
-                -c.viscosity * eps * at.weight * (slope[a][d] - (a == d ? 2.0 / 3.0 : 0.0) * divergence);
+            stress[a] = -mu * eps * at.weight * (slope[a][d] - (a == d ? 2.0 / 3.0 : 0.0) * divergence);
           at.to_reference(stress, reference);
           for (int e = 0; e < dim; ++e) load[d][q][1 + e] += reference[e];
         }

@@ -18,6 +18,11 @@ void FluidParameters::declare(Parameters& p) {
       "pressure outlet, p; pressure inlet, p; slip; periodic. Values are numbers or expressions in x, y, z, "
       "t; "
       "`*` stands for all sides not named.");
+  p.number("Eddy viscosity", eddy_viscosity, "1", Range::between(0, 2),
+           "Strength of the eddy viscosity of the unresolved turbulence by the WALE model (Nicoud & Ducros "
+           "1999, doi:10.1023/A:1009995426001); 0: none, 1: as published.");
+  p.number("Eddy constant", eddy_constant, "1", Range::between(0, 1),
+           "C_w of the WALE model; published: 0.5 (0.55 to 0.6 in isotropic turbulence).");
   p.number("Pressure stabilization", pressure_stabilization, "1", Range::between(0, 1),
            "Factor on the stabilisation of the pressure by orthogonal subscales.");
   p.choice(

@@ -42,6 +42,9 @@ double MultilinearCell<dim>::outside(const Point<dim>& x) const {
     for (int d = 0; d < dim; ++d) largest = std::max(largest, std::abs(s[d]));
     return largest - 0.5;
   };
+  // x(s) = centre + J s + N(s), |J^-1 N| <= bend in the cell: then s = J^-1 (x - centre) - J^-1 N(s) has a
+  // solution in the cell, by Brouwer's fixed-point theorem.
+  if (alone && beyond() + bend < -certainty) return beyond() + bend;
   // Beyond the cell's faces the bent terms grow: twice their size within it up to s = 0.7.
   if (!(beyond() < 2 * (bend + reach))) return never;
   for (int iteration = 0; iteration < 20; ++iteration) {
@@ -165,7 +168,7 @@ void CellBins<dim>::search(const Point<dim>& x, Found& best) const {
     if (!within) continue;
     const MultilinearCell<dim>& cell = list[member[k]];
     const double outside = cell.outside(x);
-    if (cell.alone && outside < -certainty) {
+    if (cell.alone && outside < -MultilinearCell<dim>::certainty) {
       best = {cell.number, outside, true};
       return;
     }

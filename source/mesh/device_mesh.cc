@@ -15,7 +15,7 @@ using dealii::Tensor;
 void DeviceMeshParameters::declare(Parameters& p) {
   const auto section = p.section("Device mesh", "Cells of the air in the device, before any refinement.");
   p.integer("Hole sides", hole_sides, Range::between(2, 32),
-            "Cells along a quarter of a hole's circumference, even.");
+            "Cells along a quarter of a hole's circumference.");
   p.integer("Hole rings", hole_rings, Range::between(1, 32),
             "Rings of cells between core and wall of a hole.");
   p.integer("Mouth rings", mouth_rings, Range::between(1, 32), "Rings around a hole's mouth on the disc.");
@@ -201,6 +201,17 @@ DeviceMesh::DeviceMesh(const DeviceGeometry& g, const DeviceMeshParameters& p)
         side = suction;
       cell->face(f)->set_boundary_id(side);
     }
+}
+
+Domain<3> device_domain(const DeviceGeometry& g, const DeviceMeshParameters& p, MPI_Comm comm) {
+  const DeviceMesh mesh(g, p);
+  Domain<3> domain(mesh.coarse, mesh.sides, {}, comm);
+  domain.require_cells_for_all_ranks();
+  Rotor<3> rotor;
+  rotor.material = DeviceMesh::turning;
+  rotor.pairs = {{mesh.sides.at(hole_end), mesh.sides.at(vacuum_face)}};
+  domain.set_rotor(rotor);
+  return domain;
 }
 
 }  // namespace seedflow

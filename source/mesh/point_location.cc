@@ -166,7 +166,7 @@ std::size_t PointLocation<dim>::memory_consumption() const {
 template <int dim>
 int PointLocation<dim>::cell_of(const Point<dim>& point, int guess) const {
   if (!parts.empty()) {
-    if (guess != not_here) {
+    if (guess >= 0 && guess < static_cast<int>(place.size())) {  // it may stem from an older mesh
       const Part& part = parts[place[guess].part];
       if (part.bins.holds(place[guess].cell, part.before(point))) return guess;
     }

@@ -137,9 +137,7 @@ TEST(DeviceMeshMpi, holesThatFaceTheVacuumAreFineAndNoOthers) {
   DeviceGeometry g = few_holes();
   g.vacuum_from = -0.5 * g.pitch_angle();  // the first hole only
   g.vacuum_to = 0.5 * g.pitch_angle();
-  const DeviceMesh mesh(g, coarse_sizes());
-  Domain<3> domain(mesh.coarse, mesh.sides, {}, MPI_COMM_WORLD);
-  domain.set_rotor({});
+  Domain<3> domain = device_domain(g, coarse_sizes(), MPI_COMM_WORLD);
   RefinementParameters p;
   p.max_level = 1;
   p.hole_distance = g.hole_radius();

@@ -36,6 +36,8 @@ class BoundaryData {
   std::vector<char> pressure_fixed;
   bool has_open_side = false;  ///< anywhere, on any rank
   bool is_inlet(int side) const;
+  bool is_open(int side) const;       ///< pressure inlet or outlet
+  bool lets_through(int side) const;  ///< open, or with a given velocity that need not be along the side
 
   /// Writes `factor` times the given velocities into owned nodes.
   void set_velocity(double time, std::array<NodalVector, dim>& u, double factor = 1) const;
@@ -43,15 +45,16 @@ class BoundaryData {
 
   /// y_i -= factor oint eps u.n q_i over sides of given velocity, u the nodal interpolant, eps extrapolated
   /// from the cell's quadrature points (from the nearest one where extrapolation leaves (0, 1]). Returns the
-  /// inflow and the net outflow of this rank [m^dim/s].
-  std::pair<double, double> subtract_flux(const std::array<NodalVector, dim>& u,
-                                          const PointField& void_fraction, NodalVector& y) const;
+  /// inflow of this rank [m^dim/s] and adds the net outflow to that of each side, if given.
+  double subtract_flux(const std::array<NodalVector, dim>& u, const PointField& void_fraction, NodalVector& y,
+                       std::vector<double>* outflow = nullptr) const;
   /// -oint p n per side, this rank's faces.
   std::vector<Vector> pressure_force(const NodalVector& p) const;
 
  private:
   struct Face {
     std::uint32_t place;
+    int side;
     std::vector<double> value;        ///< [q][i]
     std::vector<double> extrapolate;  ///< [q][cell point]
     std::vector<int> nearest;         ///< [q]

@@ -27,6 +27,9 @@ struct MassBalance {
   /// volume sum |int d(eps)/dt|, and the circulation int eps |u| / V^(1/dim). At least 1e-8 of the domain's
   /// volume V per step: eps is known to 1e-16, so of a smaller flow no balance can be known to 1e-8.
   double flow = 0;
+  /// Per side that is open or has a given velocity: net volume flow out of it [m^dim/s]; and, of open sides,
+  /// the power oint p u.n that leaves with it [W]: what a fan must add is minus their sum.
+  std::map<std::string, double> outflow, power;
 };
 
 /// Where the momentum goes in one step [N, in 2D N/m]; change = exchange + pressure + sum of reactions +
@@ -110,6 +113,15 @@ class Fluid {
   const FluidStatistics& statistics() const;
   double courant_number(double dt) const;  ///< max over points of |J^-1 u| dt * degree, all ranks
   double bytes_per_cell() const;
+
+  /// Velocity u~ [m/s] and pressure [Pa] at a place; `inside` is false outside the mesh.
+  struct Sample {
+    bool inside = false;
+    Vector velocity;
+    double pressure = 0;
+  };
+  /// At the same points on all ranks; collective, for reports (the search is made anew in every call).
+  std::vector<Sample> sample(const std::vector<dealii::Point<dim>>& points) const;
 
   /// Largest difference of nodal velocities within each cell of layout() [m/s]; for refinement.
   std::vector<double> velocity_jump() const;

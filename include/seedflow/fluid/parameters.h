@@ -15,6 +15,9 @@ struct FluidParameters {
 
   std::string viscous_stress = "laplacian";  ///< laplacian: eps mu grad u; full: with transpose and trace
 
+  double eddy_viscosity = 0;   ///< strength of the WALE model, 0: none (see fluid/eddy_viscosity.h)
+  double eddy_constant = 0.5;  ///< C_w [1]
+
   double pressure_stabilization = 1;       ///< factor on theta, 0..1 (see fluid/step_coefficients.h)
   std::string subscales = "quasi-static";  ///< quasi-static: of the pressure only; dynamic: of all forces
   double streamline_upwinding = 1;         ///< factor on the SUPG time scale

@@ -13,6 +13,7 @@ struct StepCoefficients {
   bool model_a = true;
   bool dynamic_subscales = false, full_stress = false;
   double stabilization = 1, upwinding = 1;
+  double eddy_viscosity = 0;  ///< strength times C_w^2; 0: none
   int degree = 1;
   TimeScheme time;
 
@@ -24,15 +25,17 @@ struct StepCoefficients {
   SEEDFLOW_INLINE Lanes share(Lanes eps) const { return model_a ? eps : broadcast(1.0); }
   /// theta = M / (M + eps (4 mu k^2/h^2 + 2 rho k |w|/h)): the stabilisation's time kappa theta = c / (that
   /// sum).
-  SEEDFLOW_INLINE Lanes theta(Lanes m, Lanes eps, Lanes speed_by_h, Lanes inverse_h2) const {
+  /// mu: viscosity, eddies included [Pa s].
+  SEEDFLOW_INLINE Lanes theta(Lanes m, Lanes eps, Lanes mu, Lanes speed_by_h, Lanes inverse_h2) const {
     return stabilization * m /
-           (m + eps * (4.0 * viscosity * degree * degree * inverse_h2 + 2.0 * density * degree * speed_by_h));
+           (m + eps * (4.0 * mu * degree * degree * inverse_h2 + 2.0 * density * degree * speed_by_h));
   }
   /// SUPG time [s]: ((2/dt)^2 + (2 k |w|/h)^2 + 9 (4 nu k^2/h^2)^2 + (beta/(rho eps))^2)^(-1/2), after
   /// Tezduyar & Osawa 2000, doi:10.1016/S0045-7825(00)00211-5, with the drag as a further rate.
-  SEEDFLOW_INLINE Lanes upwind_time(Lanes eps, Lanes beta, Lanes speed_by_h, Lanes inverse_h2) const {
+  SEEDFLOW_INLINE Lanes upwind_time(Lanes eps, Lanes beta, Lanes mu, Lanes speed_by_h,
+                                    Lanes inverse_h2) const {
     const Lanes convective = 2.0 * degree * speed_by_h;
-    const Lanes viscous = 12.0 * viscosity / density * degree * degree * inverse_h2;
+    const Lanes viscous = 12.0 / density * mu * degree * degree * inverse_h2;
     const Lanes drag = beta / (density * eps);
     const double rate = 2.0 / time.dt;
     return upwinding / lane_sqrt(rate * rate + convective * convective + viscous * viscous + drag * drag);

@@ -13,18 +13,24 @@ namespace seedflow {
 /// A cell with (bi- or tri-)linear edges and what a search must know of it. In the cell's own coordinates
 /// s in [-1/2, 1/2]^dim,  x(s) = sum_m coefficient[m] prod_{d in m} s_d,  m a set of directions (bits).
 template <int dim>
-struct MultilinearCell {
-  dealii::Tensor<2, dim> inverse;                            ///< of dx/ds at the centre [1/m]
-  std::array<dealii::Tensor<1, dim>, 1 << dim> coefficient;  ///< [m]
-  double bend = 0;           ///< how far s may lie from inverse (x - centre) for any x of the cell [1]
+struct alignas(64) MultilinearCell {
+  // What decides most searches comes first: two cache lines.
+  dealii::Tensor<2, dim> inverse;  ///< of dx/ds at the centre [1/m]
+  double bend = 0;                 ///< how far s may lie from inverse (x - centre) for any x of the cell [1]
+  double reach = 1e-9;       ///< a point this far outside, in parts of the width, may still be given to it
   std::int32_t number = -1;  ///< what the search returns
-  bool alone = true;    ///< false: cells nearby may overlap it or leave gaps (hanging nodes on a curved face)
-  double reach = 1e-9;  ///< a point this far outside, in parts of the width, may still be given to it
+  bool alone = true;  ///< false: cells nearby may overlap it or leave gaps (hanging nodes on a curved face)
+  std::array<dealii::Tensor<1, dim>, 1 << dim> coefficient;  ///< the first is the centre [m]
+
+  /// Inside by more than this, no neighbour can claim the point too: 1e5 times round-off.
+  static constexpr double certainty = 1e-10;
+
+  /// Vertices in lexicographic order.
   explicit MultilinearCell(const std::array<dealii::Point<dim>, 1 << dim>& vertices);
 
   /// By how much the point lies outside, largest |s_d| - 1/2, in parts of the cell's width; negative inside.
-  /// Newton's method, ended as soon as the sign is certain and, unless `alone`, the value too. Infinity well
-  /// beyond `reach`.
+  /// By Newton's method; for a cell that is `alone` only until the sign is certain. Infinity well beyond
+  /// `reach`.
   double outside(const dealii::Point<dim>& x) const;
 };
 
@@ -45,7 +51,7 @@ class CellBins {
   void search(const dealii::Point<dim>& x, Found& best) const;
   /// The same for a single cell, by its place in the list; true if the point is certainly in it.
   bool holds(std::size_t cell, const dealii::Point<dim>& x) const {
-    return list[cell].alone && list[cell].outside(x) < -certainty;
+    return list[cell].alone && list[cell].outside(x) < -MultilinearCell<dim>::certainty;
   }
 
   /// Calls visit(number) once for each cell whose bounding box overlaps [low, high].
@@ -55,8 +61,6 @@ class CellBins {
   std::size_t memory_consumption() const;
 
  private:
-  /// Inside by more than this, no face-neighbour can claim the point too: 1e5 times round-off.
-  static constexpr double certainty = 1e-10;
   using Index = std::array<int, dim>;
   struct Box {
     dealii::Point<dim> low, high;

@@ -7,6 +7,7 @@
 
 #include "seedflow/base/device_geometry.h"
 #include "seedflow/base/parameters.h"
+#include "seedflow/mesh/domain.h"
 
 namespace seedflow {
 
@@ -49,5 +50,9 @@ struct DeviceMesh {
 
   DeviceMesh(const DeviceGeometry& geometry, const DeviceMeshParameters& parameters);
 };
+
+/// The domain with that mesh and its rotor.
+Domain<3> device_domain(const DeviceGeometry& geometry, const DeviceMeshParameters& parameters,
+                        MPI_Comm comm);
 
 }  // namespace seedflow
