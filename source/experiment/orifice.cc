@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 
+#include "seedflow/experiment/command_of.h"
 #include "seedflow/fluid/fluid.h"
 #include "seedflow/output/folder.h"
 #include "seedflow/output/progress.h"
@@ -133,7 +134,7 @@ namespace {
 void write_report(const OrificeParameters& p, const OrificeResult& r, const RunOptions& options) {
   const std::filesystem::path folder = options.output;
   const double l = p.geometry.length / p.geometry.diameter;
-  Report report("Air through one hole", "./seedflow " + options.prm, "seedflow");
+  Report report("Air through one hole", command_of(options), "seedflow");
   report.lead("The flow that a pressure difference drives through a hole of a disc, without a seed.");
   const double published = long_orifice_discharge(l, r.reynolds);
   const bool in_range = l >= 2 && l <= 10 && r.reynolds <= 2e4 && p.geometry.chamfer == 0;
