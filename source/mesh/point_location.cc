@@ -66,7 +66,7 @@ void PointLocation<dim>::build(const Triangulation<dim>& triangulation, const Po
   root.assign(n_roots, -1);
   node.clear();
   parts.clear();
-  place.clear();
+  glance.clear();
 
   std::vector<std::vector<std::int32_t>> owned_number(triangulation.n_levels());
   for (unsigned int level = 0; level < triangulation.n_levels(); ++level)
@@ -118,7 +118,7 @@ void PointLocation<dim>::build(const Domain<dim>& domain) {
   root.clear();
   node.clear();
   parts.clear();
-  place.assign(count, {});
+  glance.assign(count, {});
   for (auto& group : entries) {
     // The order is that of the whole mesh, so that all ranks decide alike.
     std::sort(group.begin(), group.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
@@ -138,12 +138,31 @@ void PointLocation<dim>::build(const Domain<dim>& domain) {
       cells.back().alone =
           !touches(entry.cell) && (entry.cell->level() == 0 || !touches(entry.cell->parent()));
       if (!cells.back().alone) cells.back().reach = gap;
-      if (entry.number != not_here)
-        place[entry.number] = {static_cast<std::uint32_t>(parts.size()),
-                               static_cast<std::uint32_t>(cells.size() - 1)};
+      if (entry.number != not_here) glance[entry.number] = glance_at(cells.back(), parts.size());
     }
     parts.push_back({CellBins<dim>(std::move(cells)), false, {}, {}});
   }
+}
+
+template <int dim>
+typename PointLocation<dim>::Glance PointLocation<dim>::glance_at(const MultilinearCell<dim>& cell,
+                                                                  std::uint32_t part) {
+  Glance g;
+  g.part = part;
+  double steepest = 0, farthest = 0;
+  for (int d = 0; d < dim; ++d) {
+    g.centre[d] = static_cast<float>(cell.coefficient[0][d]);
+    farthest = std::max(farthest, std::abs(cell.coefficient[0][d]));
+    double sum = 0;
+    for (int e = 0; e < dim; ++e) {
+      g.inverse[d][e] = static_cast<float>(cell.inverse[d][e]);
+      sum += std::abs(cell.inverse[d][e]);
+    }
+    steepest = std::max(steepest, sum);
+  }
+  // Beyond the bend (see MultilinearCell::outside), 1e-6 is sixteen times the rounding of the floats.
+  if (cell.alone) g.limit = static_cast<float>(0.5 - cell.bend - 1e-6 * (1 + steepest * farthest));
+  return g;
 }
 
 template <int dim>
@@ -158,7 +177,7 @@ void PointLocation<dim>::turn_to(double angle) {
 template <int dim>
 std::size_t PointLocation<dim>::memory_consumption() const {
   std::size_t bytes = (root.capacity() + node.capacity()) * sizeof(std::int32_t) +
-                      place.capacity() * sizeof(Place) + sizeof(*this);
+                      glance.capacity() * sizeof(Glance) + sizeof(*this);
   for (const Part& part : parts) bytes += part.bins.memory_consumption();
   return bytes;
 }
@@ -166,10 +185,9 @@ std::size_t PointLocation<dim>::memory_consumption() const {
 template <int dim>
 int PointLocation<dim>::cell_of(const Point<dim>& point, int guess) const {
   if (!parts.empty()) {
-    if (guess >= 0 && guess < static_cast<int>(place.size())) {  // it may stem from an older mesh
-      const Part& part = parts[place[guess].part];
-      if (part.bins.holds(place[guess].cell, part.before(point))) return guess;
-    }
+    if (guess >= 0 && guess < static_cast<int>(glance.size()) &&  // it may stem from an older mesh
+        glance[guess].holds(parts[glance[guess].part].before(point)))
+      return guess;
     typename CellBins<dim>::Found found;
     for (const Part& part : parts)
       if (!found.certain) part.bins.search(part.before(point), found);

@@ -49,10 +49,6 @@ class CellBins {
 
   /// Improves `best`: the cell which the point is deepest in or nearest to, the first one of equals.
   void search(const dealii::Point<dim>& x, Found& best) const;
-  /// The same for a single cell, by its place in the list; true if the point is certainly in it.
-  bool holds(std::size_t cell, const dealii::Point<dim>& x) const {
-    return list[cell].alone && list[cell].outside(x) < -MultilinearCell<dim>::certainty;
-  }
 
   /// Calls visit(number) once for each cell whose bounding box overlaps [low, high].
   template <typename Visit>

@@ -3,6 +3,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -80,13 +81,26 @@ class PointLocation {
       return turned ? centre + back * (x - centre) : x;
     }
   };
-  struct Place {
-    std::uint32_t part, cell;
+  /// What decides in one cache line whether an owned cell surely holds a point: s = inverse (x - centre) is
+  /// within the limit in every direction. Rounded to float, which the limit allows for.
+  struct alignas(64) Glance {
+    float inverse[dim][dim], centre[dim], limit = -1;
+    std::uint32_t part = 0;
+    bool holds(const dealii::Point<dim>& x) const {
+      double largest = 0;
+      for (int d = 0; d < dim; ++d) {
+        double s = 0;
+        for (int e = 0; e < dim; ++e) s += inverse[d][e] * (x[e] - centre[e]);
+        largest = std::max(largest, std::abs(s));
+      }
+      return largest < limit;
+    }
   };
+  static Glance glance_at(const MultilinearCell<dim>& cell, std::uint32_t part);
   std::vector<Part> parts;  ///< empty: a lattice; the last is the rotor, if there is one
   std::optional<Rotor<dim>> rotor;
-  double built_at = 0;       ///< angle of the rotor at build() [rad]
-  std::vector<Place> place;  ///< of each owned cell
+  double built_at = 0;         ///< angle of the rotor at build() [rad]
+  std::vector<Glance> glance;  ///< of each owned cell
 };
 
 template <int dim>
