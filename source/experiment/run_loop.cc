@@ -104,6 +104,13 @@ void run_to_end(Simulation& simulation, const Parameters& parameters, const RunO
     recorder.record(simulation);
   };
   supervised.carry_out(work);
+  if (Fluid<3>* air = simulation.fluid()) {
+    // Of the last step; empty for a domain of walls.
+    for (const auto& [side, flow] : air->mass_balance().outflow)
+      summary.observe("air leaving through side " + side, flow, "m3/s");
+    for (const auto& [side, power] : air->mass_balance().power)
+      summary.observe("power of the pressure leaving through side " + side, power, "W");
+  }
   add_performance(simulation, supervised.wall_time(), static_cast<double>(n_steps), summary);
   add_conservation(simulation, tally.largest_mass_error, summary);
 }
