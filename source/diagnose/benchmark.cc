@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <iomanip>
 #include <map>
 #include <memory>
 #include <ostream>
 #include <sstream>
 
+#include "seedflow/base/error.h"
 #include "seedflow/base/together.h"
 #include "seedflow/diagnose/run_store.h"
 #include "seedflow/output/progress.h"
@@ -29,14 +32,20 @@ double upper_tail(long k, long n, double p) {
   return sum;
 }
 
+/// Effects of a base model: cases that share it share its runs.
+std::string base_of(const BenchmarkTruth& truth) {
+  std::string base = truth.family;
+  for (const std::string& name : truth.known) base += ";" + name;
+  return base;
+}
+
 /// Remembers runs as long as cases share the base model, and not without bound.
 class Workflow {
  public:
   Diagnosis operator()(const BenchmarkTruth& truth, const Problem& problem) {
-    std::string shared = truth.family;
-    for (const std::string& name : truth.known) shared += ";" + name;
-    if (!store || shared != base || store->size() > 20000)
-      store = std::make_unique<RunStore>(), base = shared;
+    const std::string wanted = base_of(truth);
+    if (!store || wanted != base || store->size() > 20000)
+      store = std::make_unique<RunStore>(), base = wanted;
     return diagnose(problem, *store);
   }
 
@@ -49,16 +58,6 @@ std::string percent(double level) {
   std::ostringstream text;
   text << 100 * level << '%';
   return text.str();
-}
-
-std::string label(const BenchmarkCase& one) {
-  std::string text = one.kind + " @" + percent(one.noise.level) + " " + one.truth.family;
-  for (std::size_t i = 0; i < one.truth.hidden.size(); ++i) {
-    std::ostringstream amplitude;
-    amplitude << one.truth.amplitudes[i];
-    text += ", " + one.truth.hidden[i] + " x" + amplitude.str();
-  }
-  return text;
 }
 
 /// What is counted.
@@ -147,7 +146,7 @@ class Table {
   std::vector<double> before, after;
 };
 
-constexpr int width = 17;
+constexpr int width = 18;
 
 std::array<double, width> packed(const BenchmarkOutcome& o) {
   return {double(o.right),     double(o.wrong),
@@ -158,28 +157,65 @@ std::array<double, width> packed(const BenchmarkOutcome& o) {
           double(o.intervals), double(o.covered),
           double(o.places),    double(o.place_right),
           double(o.exponents), double(o.exponent_right),
-          o.gap_before};
+          o.gap_before,        o.gap_after};
 }
 
-BenchmarkOutcome unpacked(const double* v, double gap_after) {
+BenchmarkOutcome unpacked(const double* v) {
   BenchmarkOutcome o;
   o.right = v[0], o.wrong = v[1], o.none = v[2], o.ambiguous = v[3], o.flagged = v[4], o.input = v[5];
   o.listed = v[6], o.resolved = v[7], o.confidence = v[8], o.confidence_right = v[9];
   o.intervals = int(v[10]), o.covered = int(v[11]), o.places = int(v[12]), o.place_right = int(v[13]);
-  o.exponents = int(v[14]), o.exponent_right = int(v[15]), o.gap_before = v[16], o.gap_after = gap_after;
+  o.exponents = int(v[14]), o.exponent_right = int(v[15]), o.gap_before = v[16], o.gap_after = v[17];
   return o;
 }
 
-std::string gathered_text(const std::string& mine, int ranks) {
-  int length = static_cast<int>(mine.size());
-  std::vector<int> lengths(ranks), starts(ranks);
-  MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
-  int total = 0;
-  for (int r = 0; r < ranks; ++r) starts[r] = total, total += lengths[r];
-  std::string all(total, ' ');
-  MPI_Gatherv(mine.data(), length, MPI_CHAR, all.data(), lengths.data(), starts.data(), MPI_CHAR, 0,
-              MPI_COMM_WORLD);
-  return all;
+/// As many cases of one base model as are handed to a rank together.
+constexpr std::size_t largest_portion = 40;
+
+std::vector<std::vector<BenchmarkCase>> portions_of(std::vector<BenchmarkCase> cases) {
+  std::stable_sort(cases.begin(), cases.end(), [](const BenchmarkCase& a, const BenchmarkCase& b) {
+    return base_of(a.truth) < base_of(b.truth);
+  });
+  std::vector<std::vector<BenchmarkCase>> portions;
+  for (const BenchmarkCase& one : cases) {
+    if (portions.empty() || portions.back().size() == largest_portion ||
+        base_of(portions.back().back().truth) != base_of(one.truth))
+      portions.emplace_back();
+    portions.back().push_back(one);
+  }
+  return portions;
+}
+
+/// Tells results of another build of the program from its own.
+std::string program_key() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  std::uint64_t h = 14695981039346656037ull;
+  for (std::array<char, 65536> part; program.read(part.data(), part.size()) || program.gcount() > 0;)
+    for (std::streamsize i = 0; i < program.gcount(); i += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, part.data() + i, std::min<std::streamsize>(8, program.gcount() - i));
+      h = (h ^ word) * 1099511628211ull;
+    }
+  return std::to_string(h);
+}
+
+/// Adds lines "what was hidden : what was said" to the list of the folder.
+void note_failures(const std::filesystem::path& folder, const std::string& text) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  std::ofstream(folder / ("not_as_hidden." + std::to_string(rank) + ".txt"), std::ios::app) << text;
+}
+
+std::string failures_in(const std::filesystem::path& folder) {
+  std::map<std::string, int> count;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename().string().rfind("not_as_hidden.", 0) != 0) continue;
+    std::ifstream list(entry.path());
+    for (std::string line; std::getline(list, line);) ++count[line];
+  }
+  std::ostringstream text;
+  for (const auto& [what, n] : count) text << "  " << n << " x " << what << '\n';
+  return text.str();
 }
 
 }  // namespace
@@ -200,49 +236,65 @@ Interval clopper_pearson(long hits, long of, double confidence) {
   return interval;
 }
 
-std::vector<BenchResult> run_diagnosis_benchmark(long draws, std::ostream& out) {
+std::vector<BenchResult> run_diagnosis_benchmark(long draws, const std::filesystem::path& kept,
+                                                 std::ostream& out) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const std::vector<BenchmarkCase> cases = benchmark_cases(draws);
-  const auto folder = std::filesystem::temp_directory_path() / ("seedflow-bench-" + std::to_string(getpid()));
+  const std::vector<std::vector<BenchmarkCase>> portions = portions_of(benchmark_cases(draws));
+  int id = getpid();
+  MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  const auto folder =
+      kept.empty() ? std::filesystem::temp_directory_path() / ("seedflow-bench-" + std::to_string(id)) : kept;
   const auto prm = folder / "benchmark.prm";
-
-  std::vector<double> mine(cases.size() * (width + 1), 0.0);
-  std::map<std::string, int> failures;
+  RunStore results(folder, MPI_COMM_WORLD);
   together(MPI_COMM_WORLD, [&] {
-    std::filesystem::create_directories(folder);
-    write_benchmark_base(prm);
-    Workflow workflow;
-    Progress progress("diagnoses", static_cast<double>(cases.size()), 0, rank);
-    for (std::size_t i = rank; i < cases.size(); i += ranks) {
-      const BenchmarkCase& one = cases[i];
-      const BenchmarkOutcome o = judge(
-          one, [&](const Problem& problem) { return workflow(one.truth, problem); }, prm);
-      const auto numbers = packed(o);
-      std::copy(numbers.begin(), numbers.end(), mine.begin() + i * (width + 1));
-      mine[i * (width + 1) + width] = o.gap_after;
-      const bool good = one.kind == "outside"      ? o.flagged
-                        : one.kind == "confounded" ? o.resolved
-                        : one.truth.hidden.empty() ? o.none
-                                                   : o.right;
-      if (!good) ++failures[label(one) + " : " + o.answer];
-      progress.update(static_cast<double>(i));
-    }
-    progress.finish();
+    if (rank == 0) write_benchmark_base(prm);
   });
-  std::filesystem::remove_all(folder);
 
-  std::vector<double> all(mine.size());
-  MPI_Reduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
-  std::ostringstream text;
-  for (const auto& [what, n] : failures) text << "  " << n << " x " << what << '\n';
-  const std::string list = gathered_text(text.str(), ranks);
-  if (rank != 0) return {};
+  Workflow workflow;
+  Progress progress("diagnoses", static_cast<double>(portions.size()), 0, rank);
+  const std::string program = program_key();
+  std::vector<RunStore::Task> tasks;
+  for (std::size_t p = 0; p < portions.size(); ++p) {
+    std::string key = program;
+    for (const BenchmarkCase& one : portions[p]) key += "|" + std::to_string(one.draw);
+    tasks.push_back({key, [&, p] {
+                       std::vector<double> numbers;
+                       std::string failures;
+                       for (const BenchmarkCase& one : portions[p]) {
+                         const BenchmarkOutcome o = judge(
+                             one, [&](const Problem& problem) { return workflow(one.truth, problem); }, prm);
+                         const auto row = packed(o);
+                         numbers.insert(numbers.end(), row.begin(), row.end());
+                         const bool good = one.kind == "outside"      ? o.flagged
+                                           : one.kind == "confounded" ? o.resolved
+                                           : one.truth.hidden.empty() ? o.none
+                                                                      : o.right;
+                         if (!good) failures += one.label() + " : " + o.answer + "\n";
+                       }
+                       note_failures(folder, failures);
+                       progress.update(static_cast<double>(p));
+                       return numbers;
+                     }});
+  }
+  results.share(tasks);
+  progress.finish();
+
   Table table;
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    table.add(cases[i], unpacked(&all[i * (width + 1)], all[i * (width + 1) + width]));
-  out << "Not as hidden:\n" << list;
+  std::string failures;
+  together(MPI_COMM_WORLD, [&] {
+    for (std::size_t p = 0; p < portions.size(); ++p) {
+      const RunOutcome& outcome = results.get(tasks[p].key, tasks[p].run);
+      if (!outcome.ok()) throw RunError("The benchmark failed: " + outcome.error);
+      for (std::size_t i = 0; i < portions[p].size(); ++i)
+        table.add(portions[p][i], unpacked(&outcome.values[i * width]));
+    }
+    if (rank == 0) failures = failures_in(folder);
+  });
+  if (rank != 0) return {};
+  if (kept.empty()) std::filesystem::remove_all(folder);
+  out << "Not as hidden:\n" << failures;
   table.print(out);
   return table.results(ranks);
 }

@@ -1,10 +1,18 @@
 #include <iterator>
+#include <map>
+#include <sstream>
 
 #include "seedflow/diagnose/benchmark.h"
 
 namespace seedflow {
 
 namespace {
+
+std::uint64_t hash(const std::string& text) {
+  std::uint64_t h = 14695981039346656037ull;  // FNV-1a
+  for (const unsigned char c : text) h = (h ^ c) * 1099511628211ull;
+  return h;
+}
 
 struct Placing {
   const char* effect;
@@ -70,15 +78,33 @@ std::vector<BenchmarkTruth> outsiders() {
 
 }  // namespace
 
+std::string BenchmarkCase::label() const {
+  std::ostringstream text;
+  text << kind << " @" << 100 * noise.level << "% " << truth.family << " with";
+  for (const std::string& name : truth.known) text << " " << name << ",";
+  for (std::size_t i = 0; i < truth.hidden.size(); ++i)
+    text << " hidden " << truth.hidden[i] << " x" << truth.amplitudes[i];
+  const TruthSeed::Unknown& u = truth.unknown;
+  if (truth.outside)
+    text << " outside: uniform " << u.uniform.x << " drag " << u.drag_amplitude << " shear "
+         << u.shear_amplitude << " trap " << u.trap;
+  return text.str();
+}
+
 std::vector<BenchmarkCase> benchmark_cases(long draws) {
   constexpr double amplitudes[] = {0.63, 0.97, 1.36};
   constexpr double levels[] = {0.01, 0.02, 0.05, 0.1};
   std::vector<BenchmarkCase> cases;
-  // Number of the draw: also tells the random numbers of one group from those of another.
-  std::uint64_t number = 1;
+  std::map<std::string, long> used;
   const auto add = [&](const char* kind, const BenchmarkTruth& truth, const BenchmarkNoise& noise,
                        long count) {
-    for (long i = 0; i < count; ++i) cases.push_back({kind, truth, noise, number++});
+    // The random numbers of a draw do not depend on how many there are, and none are used twice.
+    BenchmarkCase one{kind, truth, noise, 0};
+    for (long i = 0; i < count; ++i) {
+      const std::string label = one.label();
+      one.draw = hash(label + " " + std::to_string(used[label]++));
+      cases.push_back(one);
+    }
   };
   const auto level = [](double value) {
     BenchmarkNoise noise;

@@ -13,21 +13,35 @@ namespace {
 
 constexpr long standard_draws = 100;
 
-long read_draws(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) return standard_draws;
-  char* end = nullptr;
-  const long draws = arguments.size() == 2 ? std::strtol(arguments[1].c_str(), &end, 10) : 0;
-  if (arguments.size() != 2 || arguments[0] != "--draws" || *end != 0 || draws < 1)
-    throw InputError("bench diagnose: expected nothing or --draws N with N a whole number of at least 1.");
-  return draws;
+struct Options {
+  long draws = standard_draws;
+  std::string folder;
+};
+
+Options read_options(const std::vector<std::string>& arguments) {
+  Options options;
+  for (std::size_t i = 0; i < arguments.size(); i += 2) {
+    const bool draws = arguments[i] == "--draws", known = draws || arguments[i] == "--output";
+    if (!known || i + 1 == arguments.size())
+      throw InputError("bench diagnose: expected --draws N or --output DIR, found \"" + arguments[i] + "\".");
+    const std::string& value = arguments[i + 1];
+    char* end = nullptr;
+    if (draws)
+      options.draws = std::strtol(value.c_str(), &end, 10);
+    else
+      options.folder = value;
+    if (draws && (value.empty() || *end != 0 || options.draws < 1))
+      throw InputError("bench diagnose: --draws \"" + value + "\": expected a whole number of at least 1.");
+  }
+  return options;
 }
 
 int run(const CommandLine& program, const std::vector<std::string>& arguments, std::ostream& out) {
-  const long draws = read_draws(arguments);
+  const Options options = read_options(arguments);
   if (program.rank == 0)
-    out << "diagnose: effects hidden in data of an independent generator, " << draws
+    out << "diagnose: effects hidden in data of an independent generator, " << options.draws
         << " draws of each effect, amplitude and noise" << std::endl;
-  const std::vector<BenchResult> results = run_diagnosis_benchmark(draws, out);
+  const std::vector<BenchResult> results = run_diagnosis_benchmark(options.draws, options.folder, out);
   if (program.rank == 0) write_bench_file(results, "bench.json");
   return exit_done;
 }
@@ -35,7 +49,7 @@ int run(const CommandLine& program, const std::vector<std::string>& arguments, s
 }  // namespace
 
 Command diagnosis_benchmark_command() {
-  return {"bench diagnose", "bench diagnose [--draws N]",
+  return {"bench diagnose", "bench diagnose [--draws N] [--output DIR]",
           "how often a hidden effect is named, and how often one is named that is not there", run};
 }
 

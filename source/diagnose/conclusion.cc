@@ -51,7 +51,7 @@ bool contains(const std::vector<int>& larger, const std::vector<int>& smaller) {
 Adequacy adequacy(const DataNoise& noise, const LinearModel& nothing, const Split& split, Diagnosis& answer) {
   (void)answer;
   Adequacy a;
-  const LinearFit with = fit(noise, noise_variants()[0], nothing, split.all);
+  const LinearFit with = fit(noise, stated_noise, nothing, split.all);
   a.p_chi2 = chi2_tail(with.chi2, with.points);
   a.p_runs = runs_test(noise, with.innovations, split.all);
   return a;
@@ -113,7 +113,7 @@ Tried* Conclusion::decide(std::vector<Tried>& tried, Diagnosis& answer) {
     LinearModel exact = nothing.trained.linear;
     const auto inputs = static_cast<Eigen::Index>(model.uncertain_inputs().size());
     exact.directions.conservativeResize(Eigen::NoChange, inputs);  // numerical errors stand last
-    const LinearFit without = fit(noise, noise_variants()[0], exact, split.all);
+    const LinearFit without = fit(noise, stated_noise, exact, split.all);
     answer.verdict =
         chi2_tail(without.chi2, without.points) < 1e-3 ? Verdict::numerics_dominate : Verdict::none;
     return &nothing;
@@ -254,6 +254,7 @@ void Conclusion::fill_in(const Tried& winner, Diagnosis& answer) const {
         setting.error[static_cast<int>(e)] = x;
     }
   }
+  answer.overrides = model.choices(setting);
   for (const auto& [path, value] : model.changes(setting, 0))
     answer.overrides.push_back(path + "=" + rounded(value, 6));
 }
@@ -319,7 +320,7 @@ void Conclusion::fill_explanations(const std::vector<Tried>& tried, Diagnosis& a
     e.log_evidence = w.score;
     e.log_evidence_all = t.total();
     e.posterior = believable(w) ? std::exp(t.total() - top) / sum : 0;
-    const LinearFit stated = fit(noise, noise_variants()[0], w.linear, split.training);
+    const LinearFit stated = fit(noise, stated_noise, w.linear, split.training);
     e.chi2_training = stated.chi2 / stated.points;
     e.chi2_held_out = t.points_held_out > 0 ? t.chi2_held_out / t.points_held_out : 0;
     for (std::size_t i = 0; i < w.what.set.size(); ++i)

@@ -44,13 +44,16 @@ void require_enough(const ObservableModel& model, const Split& split) {
 }
 
 /// Candidates that change anything, and whose runs succeed.
-std::vector<int> acting_candidates(const ObservableModel& model, Responses& responses, Diagnosis& answer) {
+std::vector<int> acting_candidates(ObservableModel& model, Responses& responses, bool default_candidates,
+                                   Diagnosis& answer) {
   std::vector<int> acting;
-  std::string idle, failed;
+  std::string idle, failed, outside;
   for (std::size_t k = 0; k < model.candidates().size(); ++k) {
     const int i = static_cast<int>(k);
     const std::string& name = model.candidates()[k].name;
-    if (!responses.ok({i}))
+    if (default_candidates && model.share_in_range(name) == 0)
+      outside += (outside.empty() ? "" : ", ") + name;
+    else if (!responses.ok({i}))
       failed += (failed.empty() ? "" : ", ") + name;
     else if (responses.acts(i))
       acting.push_back(i);
@@ -58,6 +61,9 @@ std::vector<int> acting_candidates(const ObservableModel& model, Responses& resp
       idle += (idle.empty() ? "" : ", ") + name;
   }
   if (!idle.empty()) answer.remarks.push_back("Without any action under these conditions: " + idle + ".");
+  if (!outside.empty())
+    answer.remarks.push_back("Outside their range of validity under every condition, left out: " + outside +
+                             ".");
   if (!failed.empty()) answer.remarks.push_back("Candidates whose runs failed, left out: " + failed + ".");
   return acting;
 }
@@ -75,7 +81,7 @@ std::vector<std::vector<std::string>> parallel_classes(const ObservableModel& mo
     for (Eigen::Index i = 0; i < one.residual.size(); ++i)
       if (!std::isfinite(one.residual[i])) one.residual[i] = 0;
     signature.push_back(one.residual);
-    weighted.push_back(fit(noise, noise_variants()[0], one, use).gradient);
+    weighted.push_back(fit(noise, stated_noise, one, use).gradient);
   }
   std::vector<std::vector<std::string>> classes;
   std::vector<bool> taken(acting.size(), false);
@@ -167,25 +173,39 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   const auto n_conditions = static_cast<long>(model.conditions().size());
   const auto n_candidates = static_cast<long>(model.candidates().size());
   const auto n_inputs = static_cast<long>(model.nuisances().size());
-  const long lean = n_conditions * (2 + n_inputs + n_candidates);
+  const long lean = n_conditions * model.repeats() * (2 + n_inputs + n_candidates);
   if (problem.budget.runs < lean)
-    throw InputError("The budget of " + std::to_string(problem.budget.runs) + " runs is too small: " +
-                     std::to_string(n_candidates) + " candidates and " + std::to_string(n_inputs) +
-                     " inputs under " + std::to_string(n_conditions) + " conditions need at least " +
-                     std::to_string(lean) + ". Raise it, or name fewer candidates.");
+    throw InputError(
+        "The budget of " + std::to_string(problem.budget.runs) +
+        " runs is too small: " + std::to_string(n_candidates) + " candidates and " +
+        std::to_string(n_inputs) + " inputs under " + std::to_string(n_conditions) + " conditions" +
+        (model.repeats() > 1 ? ", repeated " + std::to_string(model.repeats()) + " times," : "") +
+        " need at least " + std::to_string(lean) + ". Raise it, or name fewer candidates.");
   const bool frugal = problem.budget.runs < 6 * lean;
   Responses responses(model, frugal);
+  // What the winner needs at the end is kept back.
+  const long for_winner = 3 * n_conditions * model.repeats();
+  model.allow(std::max(lean, problem.budget.runs - for_winner));
+  responses.prepare();
 
   // Pre-checks.
   const Eigen::VectorXd& base = responses.base();
   const std::vector<bool> usable = usable_conditions(model, base, answer);
+  for (const auto& [quantity, error] : model.add_scatter()) {
+    std::ostringstream text;
+    text.precision(2);
+    text << "Repetitions scatter: " << quantity << " is the mean of " << model.repeats()
+         << " runs with other random numbers, its standard error of " << error
+         << " (SI) is part of the uncertainty.";
+    answer.remarks.push_back(text.str());
+  }
   DataNoise noise(model.points());
   const Split split = split_series(model, noise, usable);
   require_enough(model, split);
   for (const std::string& effect : model.idle_effects())
     answer.remarks.push_back("The effect \"" + effect +
                              "\" is switched on in the base model and did nothing under any condition.");
-  const std::vector<int> acting = acting_candidates(model, responses, answer);
+  const std::vector<int> acting = acting_candidates(model, responses, problem.candidates.empty(), answer);
   Weighing weighing(model, responses, noise, static_cast<int>(acting.size()));
   const LinearModel nothing = weighing.linearise({}, {}, true);
   const std::vector<Eigen::Index> outliers = raise_outliers(noise, nothing, split.all);
@@ -231,6 +251,11 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   Tried* winner = conclusion.decide(tried, answer);
   if (winner && !winner->trained.what.set.empty() && !split.has_held_out)
     conclusion.cross_validate(*winner, tried, answer);
+
+  if (model.out_of_budget())
+    answer.remarks.push_back("The budget of " + std::to_string(problem.budget.runs) +
+                             " runs was used up: explanations whose runs it did not allow were left out.");
+  model.allow(model.runs() + for_winner);
 
   // Add and show.
   answer.before = as_vector(base);

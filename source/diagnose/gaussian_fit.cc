@@ -1,6 +1,5 @@
 #include "seedflow/diagnose/gaussian_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -17,15 +16,16 @@ constexpr double tolerance_length = 0.5;  // of a series: published forms differ
 
 }  // namespace
 
-const std::vector<NoiseVariant>& noise_variants() {
-  static const std::vector<NoiseVariant> all = [] {
-    std::vector<NoiseVariant> list = {{1, 0, 0}};
-    for (const double scale : {1.4, 2.0, 2.8, 4.0}) list.push_back({scale, 0, 0});
-    for (const double size : {0.6, 1.2, 2.5, 6.0, 15.0, 40.0})
-      for (const double length : {0.1, 0.4}) list.push_back({1, size, length});
-    list.push_back({0.5, 0.9, 0.1});  // the stated scatter, mostly correlated
-    list.push_back({1.4, 1.4, 0.1});
-    return list;
+const NoiseChains& noise_chains() {
+  static const NoiseChains all = [] {
+    NoiseChains chains = {{stated_noise}, {}};
+    for (const double scale : {1.4, 2.0, 2.8, 4.0}) chains.back().push_back({scale, 0, 0});
+    for (const double length : {0.1, 0.4}) {
+      chains.push_back({});
+      for (const double size : {0.6, 1.2, 2.5, 6.0, 15.0, 40.0}) chains.back().push_back({1, size, length});
+    }
+    chains.push_back({{0.5, 0.9, 0.1}, {1.4, 1.4, 0.1}});  // the stated scatter mostly correlated; more
+    return chains;
   }();
   return all;
 }
@@ -51,92 +51,157 @@ Eigen::MatrixXd DataNoise::block(std::size_t s, const NoiseVariant& variant,
                                  const Eigen::MatrixXd& tolerance) const {
   const std::vector<Eigen::Index>& at = members[s];
   const auto n = static_cast<Eigen::Index>(at.size());
-  Eigen::MatrixXd b(n, n);
+  Eigen::MatrixXd b(n, n), slopes(tolerance.cols(), n);
   // Smooth covariances depend on the distance in rank alone.
-  std::vector<double> smooth(n), slow(n);
+  std::vector<double> smooth(n, 0.0), slow(n);
+  bool correlated = false;
   for (Eigen::Index k = 0; k < n; ++k) {
     const double distance = static_cast<double>(k) / static_cast<double>(n);
-    smooth[k] = variant.discrepancy > 0
-                    ? std::pow(variant.discrepancy * typical[s], 2) * matern(distance / variant.length)
-                    : 0.0;
+    if (variant.discrepancy > 0)
+      smooth[k] = std::pow(variant.discrepancy * typical[s], 2) * matern(distance / variant.length);
     slow[k] = matern(distance / tolerance_length);
+    for (Eigen::Index t = 0; t < tolerance.cols(); ++t) slopes(t, k) = tolerance(at[k], t);
+    correlated = correlated || points[at[k]].correlated_sigma > 0;
   }
-  for (Eigen::Index i = 0; i < n; ++i)
+  for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
+      double shared = 0;
+      for (Eigen::Index t = 0; t < tolerance.cols(); ++t) shared += slopes(t, i) * slopes(t, j);
+      b(i, j) = b(j, i) = smooth[i - j] + slow[i - j] * shared;
+    }
+    b(i, i) += std::pow(variant.white_scale * points[at[i]].sigma * scale[at[i]], 2);
+  }
+  if (!correlated) return b;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
       const DataPoint &p = points[at[i]], &q = points[at[j]];
-      double value = smooth[i - j];
-      if (p.correlated_sigma > 0) {
-        const double distance = std::abs(p.coordinate - q.coordinate);
-        value += p.correlated_sigma * q.correlated_sigma *
+      if (!(p.correlated_sigma > 0)) continue;
+      const double distance = std::abs(p.coordinate - q.coordinate);
+      b(i, j) += p.correlated_sigma * q.correlated_sigma *
                  (distance > 0 ? std::exp(-distance / p.correlation_length) : 1.0);
-      }
-      for (Eigen::Index t = 0; t < tolerance.cols(); ++t)
-        value += tolerance(at[i], t) * tolerance(at[j], t) * slow[i - j];
-      if (i == j) value += std::pow(variant.white_scale * p.sigma * scale[at[i]], 2);
-      b(i, j) = b(j, i) = value;
     }
   return b;
 }
 
-LinearFit fit(const DataNoise& noise, const NoiseVariant& variant, const LinearModel& model,
-              const std::vector<bool>& use, const LinearFit* prior) {
+namespace {
+
+/// rows <- L^-1 rows. Rows are short: loops without a library's set-up.
+template <class Rows>
+void solve_forward(const Eigen::MatrixXd& lower, Rows& rows) {
+  const Eigen::Index m = rows.cols();
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    double* const here = &rows(i, 0);
+    for (Eigen::Index k = 0; k < i; ++k) {
+      const double l = lower(i, k);
+      const double* const before = &rows(k, 0);
+      for (Eigen::Index c = 0; c < m; ++c) here[c] -= l * before[c];
+    }
+    const double scale = 1 / lower(i, i);
+    for (Eigen::Index c = 0; c < m; ++c) here[c] *= scale;
+  }
+}
+
+}  // namespace
+
+WhitenedModel::WhitenedModel(const DataNoise& the_noise, const NoiseVariant& variant,
+                             const LinearModel& model, const std::vector<bool>& use, const LinearFit* prior)
+    : noise(the_noise), all_points(model.residual.size()) {
   const Eigen::Index q = model.directions.cols();
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(q);
-  Eigen::MatrixXd root = Eigen::MatrixXd::Identity(q, q);
+  Eigen::MatrixXd transformed;
   if (prior) {
     start = prior->mean;
     root = prior->covariance.llt().matrixL();
+    transformed = model.directions * root;
   }
-  Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(q, q);
+  const Eigen::MatrixXd& directions = prior ? transformed : model.directions;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Identity(q, q);
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(q);
-  struct Part {
-    Eigen::LLT<Eigen::MatrixXd> factor;
-    Eigen::MatrixXd white;  // whitened directions and, last, residual
-  };
-  std::vector<Part> parts(noise.series().size());
-  LinearFit result;
-  double log_determinant = 0, square = 0;
-  for (std::size_t s = 0; s < parts.size(); ++s) {
+  double square = 0;
+  for (std::size_t s = 0; s < noise.series().size(); ++s) {
     if (!use[s]) continue;
     const std::vector<Eigen::Index>& at = noise.series()[s];
     const auto n = static_cast<Eigen::Index>(at.size());
-    Part& part = parts[s];
-    part.factor.compute(noise.block(s, variant, model.tolerance));
-    Eigen::MatrixXd rows(n, q);
-    part.white.resize(n, q + 1);
+    parts.push_back({s, {}, noise.block(s, variant, model.tolerance), {}});
+    Part& part = parts.back();
+    Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(part.factor);
+    for (Eigen::Index c = 0; c < q; ++c)
+      if (std::any_of(at.begin(), at.end(), [&](Eigen::Index i) { return directions(i, c) != 0; }))
+        part.column.push_back(c);
+    const auto m = static_cast<Eigen::Index>(part.column.size());
+    part.white.resize(n, m + 1);
     for (Eigen::Index i = 0; i < n; ++i) {
-      rows.row(i) = model.directions.row(at[i]);
-      part.white(i, q) = model.residual[at[i]] - (prior ? rows.row(i).dot(start) : 0.0);
+      for (Eigen::Index c = 0; c < m; ++c) part.white(i, c) = directions(at[i], part.column[c]);
+      part.white(i, m) = model.residual[at[i]] - (prior ? model.directions.row(at[i]).dot(start) : 0.0);
     }
-    if (prior)
-      part.white.leftCols(q).noalias() = rows * root;
-    else
-      part.white.leftCols(q) = rows;
-    part.factor.matrixL().solveInPlace(part.white);
-    log_determinant += 2 * part.factor.matrixLLT().diagonal().array().log().sum();
-    precision.noalias() += part.white.leftCols(q).transpose() * part.white.leftCols(q);
-    slope.noalias() += part.white.leftCols(q).transpose() * part.white.col(q);
-    square += part.white.col(q).squaredNorm();
-    result.points += static_cast<int>(n);
+    solve_forward(part.factor, part.white);
+    for (Eigen::Index i = 0; i < n; ++i) log_determinant += 2 * std::log(part.factor(i, i));
+    Eigen::MatrixXd products(m + 1, m + 1);
+    products.noalias() = part.white.transpose() * part.white;
+    for (Eigen::Index a = 0; a < m; ++a) {
+      for (Eigen::Index b = 0; b < m; ++b) sum(part.column[a], part.column[b]) += products(a, b);
+      slope[part.column[a]] += products(a, m);
+    }
+    square += products(m, m);
+    points += static_cast<int>(n);
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(precision);
-  const Eigen::VectorXd x = factor.solve(slope);
-  log_determinant += 2 * factor.matrixLLT().diagonal().array().log().sum();
-  result.chi2 = square - slope.dot(x);
-  result.log_evidence = -0.5 * (result.chi2 + log_determinant + result.points * std::log(2 * M_PI));
-  result.mean = start + root * x;
-  result.covariance = root * factor.solve(Eigen::MatrixXd(root.transpose()));
-  result.gradient = result.innovations = Eigen::VectorXd::Zero(model.residual.size());
-  for (std::size_t s = 0; s < parts.size(); ++s) {
-    if (!use[s]) continue;
-    Eigen::VectorXd left = parts[s].white.col(q) - parts[s].white.leftCols(q) * x;
-    for (std::size_t i = 0; i < noise.series()[s].size(); ++i)
-      result.innovations[noise.series()[s][i]] = left[static_cast<Eigen::Index>(i)];
-    parts[s].factor.matrixL().transpose().solveInPlace(left);
-    for (std::size_t i = 0; i < noise.series()[s].size(); ++i)
-      result.gradient[noise.series()[s][i]] = left[static_cast<Eigen::Index>(i)];
+  precision.compute(sum);
+  x = precision.solve(slope);
+  log_determinant += 2 * precision.matrixLLT().diagonal().array().log().sum();
+  chi2 = square - slope.dot(x);
+}
+
+LinearFit WhitenedModel::brief() const {
+  LinearFit result;
+  result.points = points;
+  result.chi2 = chi2;
+  result.log_evidence = -0.5 * (chi2 + log_determinant + points * std::log(2 * M_PI));
+  result.mean = root.size() > 0 ? Eigen::VectorXd(start + root * x) : x;
+  return result;
+}
+
+LinearFit WhitenedModel::full() const {
+  LinearFit result = brief();
+  const Eigen::Index q = x.size();
+  result.covariance =
+      precision.solve(root.size() > 0 ? Eigen::MatrixXd(root.transpose()) : Eigen::MatrixXd::Identity(q, q));
+  if (root.size() > 0) result.covariance = root * result.covariance;
+  result.gradient = result.innovations = Eigen::VectorXd::Zero(all_points);
+  for (const Part& part : parts) {
+    const auto m = static_cast<Eigen::Index>(part.column.size());
+    Eigen::VectorXd left = part.white.col(m);
+    for (Eigen::Index c = 0; c < m; ++c) left -= x[part.column[c]] * part.white.col(c);
+    const std::vector<Eigen::Index>& at = noise.series()[part.series];
+    for (std::size_t i = 0; i < at.size(); ++i)
+      result.innovations[at[i]] = left[static_cast<Eigen::Index>(i)];
+    part.factor.triangularView<Eigen::Lower>().transpose().solveInPlace(left);
+    for (std::size_t i = 0; i < at.size(); ++i) result.gradient[at[i]] = left[static_cast<Eigen::Index>(i)];
   }
   return result;
+}
+
+WhitenedModel::WithDirection WhitenedModel::with(const Eigen::VectorXd& direction) const {
+  Eigen::VectorXd coupling = Eigen::VectorXd::Zero(x.size());
+  double square = 0, slope = 0;
+  for (const Part& part : parts) {
+    const std::vector<Eigen::Index>& at = noise.series()[part.series];
+    Rows d(static_cast<Eigen::Index>(at.size()), 1);
+    for (std::size_t i = 0; i < at.size(); ++i) d(static_cast<Eigen::Index>(i), 0) = direction[at[i]];
+    solve_forward(part.factor, d);
+    const auto m = static_cast<Eigen::Index>(part.column.size());
+    const Eigen::VectorXd products = part.white.transpose() * d.col(0);
+    for (Eigen::Index c = 0; c < m; ++c) coupling[part.column[c]] += products[c];
+    slope += products[m];
+    square += d.squaredNorm();
+  }
+  // Rank-one change of the covariance: K + d d^T.
+  const double dkd = square - coupling.dot(precision.solve(coupling)), dkr = slope - coupling.dot(x);
+  const double mean = dkr / (1 + dkd);
+  return {-0.5 * (chi2 - dkr * mean + log_determinant + std::log1p(dkd) + points * std::log(2 * M_PI)), mean};
+}
+
+LinearFit fit(const DataNoise& noise, const NoiseVariant& variant, const LinearModel& model,
+              const std::vector<bool>& use, const LinearFit* prior) {
+  return WhitenedModel(noise, variant, model, use, prior).full();
 }
 
 double chi2_tail(double x, int n) {

@@ -29,7 +29,7 @@ InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& we
   InferredLaw found;
   if (!LawSearch::possible(model)) return found;
   LawSearch search(model, responses, weighing, noise, split);
-  const std::vector<LawSearch::Screened> laws = search.screened_laws(noise_variants()[0]);
+  const std::vector<LawSearch::Screened> laws = search.screened_laws(stated_noise);
   // The best term of each of the best combinations of direction and group is refined.
   LawSearch::Refined best;
   double best_score = -1e300;

@@ -13,6 +13,8 @@ const std::string head = "Effects/Inferred law/";
 constexpr double probe = 0.02;  ///< coefficient of the terms of the library, small enough to be linear
 /// Prior standard deviations: coefficients in units of drag or weight, exponents.
 constexpr double coefficient_deviation = 0.5, exponent_deviation = 2;
+constexpr double library_exponents[] = {-1.0, -0.5, 0.5, 1.0, 2.0};
+constexpr std::size_t n_tolerated = 25;  ///< terms of the library that are looked at closely
 
 }  // namespace
 
@@ -43,7 +45,11 @@ bool LawSearch::possible(const ObservableModel& model) {
 
 LawSearch::LawSearch(ObservableModel& model, Responses& responses, Weighing& weighing, const DataNoise& noise,
                      const Split& split)
-    : model(model), responses(responses), weighing(weighing), noise(noise), split(split) {
+    : model(model),
+      responses(responses),
+      noise(noise),
+      split(split),
+      nothing(weighing.linearise({}, {}, true)) {
   const auto& names = model.regimes();
   if (std::find(names.begin(), names.end(), "Reynolds number") == names.end()) return;
   const Eigen::VectorXd re = model.regime("Reynolds number");
@@ -69,7 +75,7 @@ Setting LawSearch::setting(const Law& law) const {
 
 LinearFit LawSearch::evaluate(const Eigen::VectorXd& value, const Eigen::MatrixXd& columns,
                               const Eigen::VectorXd& tolerance, const NoiseVariant& variant) {
-  LinearModel linear = weighing.linearise({}, {}, true);
+  LinearModel linear = nothing;
   linear.residual += responses.base() - value;
   const Eigen::Index q = linear.directions.cols();
   linear.directions.conservativeResize(Eigen::NoChange, q + columns.cols());
@@ -78,7 +84,26 @@ LinearFit LawSearch::evaluate(const Eigen::VectorXd& value, const Eigen::MatrixX
     linear.tolerance.conservativeResize(Eigen::NoChange, linear.tolerance.cols() + 1);
     linear.tolerance.rightCols(1) = tolerance;
   }
-  return fit(noise, variant, linear, split.all);
+  return WhitenedModel(noise, variant, linear, split.all).full();
+}
+
+void LawSearch::prepare_library() {
+  // The ranks share the whole library, terms that turn out to say nothing included.
+  std::vector<Setting> settings;
+  for (int direction = 0; direction < Law::n_directions; ++direction) {
+    Law law;
+    law.direction = direction;
+    law.coefficient = probe;
+    settings.push_back(setting(law));
+    for (int g = 0; g < Law::n_groups; ++g)
+      for (const double exponent : library_exponents) {
+        Law with = law;
+        with.has[g] = true;
+        with.exponent[g] = exponent;
+        settings.push_back(setting(with));
+      }
+  }
+  model.prepare_runs(settings);
 }
 
 std::vector<LawSearch::Screened> LawSearch::screened_laws(const NoiseVariant& other) {
@@ -89,24 +114,26 @@ std::vector<LawSearch::Screened> LawSearch::screened_laws(const NoiseVariant& ot
       if (!std::isfinite(d[i])) d[i] = 0;
     return d;
   };
-  std::vector<Screened> list;
-  const auto screen = [&](const Law& law, const Eigen::VectorXd& d) {
-    Screened best{law};
-    for (const NoiseVariant& variant : {noise_variants()[0], other}) {
-      LinearFit f = evaluate(responses.base(), coefficient_deviation * d, Eigen::VectorXd(), variant);
-      const double c = coefficient_deviation * f.mean[f.mean.size() - 1];
-      // Exponents lie between those of the library, and responses bend: a tenth of the change is tolerated.
-      f = evaluate(responses.base(), coefficient_deviation * d, 0.1 * std::abs(c) * d, variant);
-      const double score =
-          f.log_evidence - law.price() - (variant.as_stated() ? 0 : Weighing::price_of_noise);
-      if (score > best.score) {
-        best.score = score;
-        best.law.coefficient = coefficient_deviation * f.mean[f.mean.size() - 1];
-      }
-      if (other.as_stated()) break;
-    }
-    list.push_back(best);
+  std::vector<NoiseVariant> variants = {stated_noise};
+  if (!other.as_stated()) variants.push_back(other);
+  std::vector<WhitenedModel> whitened;
+  for (const NoiseVariant& variant : variants) whitened.emplace_back(noise, variant, nothing, split.all);
+  struct Term {
+    Screened screened;
+    Eigen::VectorXd response;
+    std::vector<double> coefficient;  // per variant
   };
+  std::vector<Term> terms;
+  const auto screen = [&](const Law& law, const Eigen::VectorXd& d) {
+    Term term{{law}, d, {}};
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+      const auto with = whitened[v].with(coefficient_deviation * d);
+      term.coefficient.push_back(coefficient_deviation * with.mean);
+      term.screened.take(with.log_evidence, variants[v], term.coefficient[v]);
+    }
+    terms.push_back(term);
+  };
+  prepare_library();
   for (int direction = 0; direction < Law::n_directions; ++direction) {
     Law constant;
     constant.direction = direction;
@@ -121,16 +148,38 @@ std::vector<LawSearch::Screened> LawSearch::screened_laws(const NoiseVariant& ot
       // A group that is the same everywhere (or zero) says nothing.
       const double scale = first.norm() * d.norm();
       if (!(scale > 0) || first.dot(d) > (1 - 1e-6) * scale) continue;
-      for (const double exponent : {-1.0, -0.5, 0.5, 1.0, 2.0}) {
+      for (const double exponent : library_exponents) {
         law.exponent[g] = exponent;
         const Eigen::VectorXd r = exponent == 1 ? first : response(law);
         if (r.cwiseAbs().maxCoeff() > 0) screen(law, r);
       }
     }
   }
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Screened& a, const Screened& b) { return a.score > b.score; });
+  // Exponents lie between those of the library, and responses bend: a tenth of the change is tolerated. This
+  // takes a fit of its own, so only the better terms get it.
+  const auto better = [](const Term& a, const Term& b) { return a.screened.score > b.screened.score; };
+  std::stable_sort(terms.begin(), terms.end(), better);
+  const std::size_t n = std::min(terms.size(), n_tolerated);
+  for (std::size_t i = 0; i < n; ++i) {
+    terms[i].screened.score = -1e300;
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+      Term& term = terms[i];
+      const LinearFit f = evaluate(responses.base(), coefficient_deviation * term.response,
+                                   0.1 * std::abs(term.coefficient[v]) * term.response, variants[v]);
+      term.screened.take(f.log_evidence, variants[v], coefficient_deviation * f.mean[f.mean.size() - 1]);
+    }
+  }
+  std::stable_sort(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(n), better);
+  std::vector<Screened> list;
+  for (const Term& term : terms) list.push_back(term.screened);
   return list;
+}
+
+void LawSearch::Screened::take(double log_evidence, const NoiseVariant& variant, double coefficient) {
+  const double now = log_evidence - law.price() - (variant.as_stated() ? 0 : Weighing::price_of_noise);
+  if (now <= score) return;
+  score = now;
+  law.coefficient = coefficient;
 }
 
 LawSearch::Refined LawSearch::refine(Law law) {
@@ -162,7 +211,7 @@ LawSearch::Refined LawSearch::refine(Law law) {
     }
     if (!columns.allFinite()) break;
     // Priors are N(0, deviation^2) about zero, the linear model is about the present values.
-    const LinearFit f = evaluate(now - columns * centre, columns, Eigen::VectorXd(), noise_variants()[0]);
+    const LinearFit f = evaluate(now - columns * centre, columns, Eigen::VectorXd(), stated_noise);
     const Eigen::Index first = f.mean.size() - columns.cols();
     if (f.log_evidence > best.log_evidence) {
       best.log_evidence = f.log_evidence;

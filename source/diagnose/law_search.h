@@ -35,6 +35,7 @@ class LawSearch {
   struct Screened {
     Law law;
     double score = -1e300;  ///< log evidence of all conditions less the price of the search
+    void take(double log_evidence, const NoiseVariant& variant, double coefficient);
   };
   /// Every direction, alone and with every group to a few powers, as far as it acts: linear response, under
   /// the stated noise and under `other`. Best first.
@@ -53,14 +54,15 @@ class LawSearch {
   double reference(int group) const { return group == 0 ? reference_reynolds : group == 5 ? 1 : 0.1; }
 
  private:
+  void prepare_library();
   LinearFit evaluate(const Eigen::VectorXd& value, const Eigen::MatrixXd& columns,
                      const Eigen::VectorXd& tolerance, const NoiseVariant& variant);
 
   ObservableModel& model;
   Responses& responses;
-  Weighing& weighing;
   const DataNoise& noise;
   const Split& split;
+  LinearModel nothing;  ///< nothing missing
   double reference_reynolds = 10;
 };
 

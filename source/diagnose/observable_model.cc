@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "seedflow/base/error.h"
 #include "seedflow/base/nearest_name.h"
 #include "seedflow/base/parameter_file.h"
 #include "seedflow/base/units.h"
-#include "seedflow/effects/catalogue.h"
-#include "seedflow/effects/contact_effects.h"
 #include "seedflow/experiment/experiment.h"
 #include "seedflow/output/folder.h"
 
@@ -30,38 +27,16 @@ Observer observer_of(const Problem& problem) {
                    "\" cannot be compared with measurements. " + suggestion(line.value, able, "experiment"));
 }
 
-std::string where(const Measurement& m) {
-  return m.line > 0 ? "measurement in line " + std::to_string(m.line) : "measurement of " + m.quantity;
-}
-
-/// Factor from a unit to the SI unit of a quantity of the same dimension.
-double factor(const std::string& unit, const std::string& si_unit, const std::string& place) {
-  Unit parsed;
-  try {
-    parsed = parse_unit(unit);
-  } catch (const InputError& error) {
-    throw InputError(place + ": " + error.what());
-  }
-  if (parsed.dimension != parse_unit(si_unit).dimension)
-    throw InputError(place + ": the unit \"" + unit + "\" does not measure the same as " + si_unit + ".");
-  if (parsed.offset != 0) throw InputError(place + ": a unit with an offset cannot be compared; use K.");
-  return parsed.factor * std::pow(10.0, parsed.exponent);
-}
-
-const Observable& find_observable(const Observer& observer, const Measurement& m) {
-  std::vector<std::string> names;
-  for (const Observable& o : observer.observables) {
-    if (o.name == m.quantity) return o;
-    names.push_back(o.name);
-  }
-  throw InputError(where(m) + ": the experiment produces no quantity \"" + m.quantity + "\". " +
-                   suggestion(m.quantity, names, "quantity"));
-}
-
 std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += text + ";";
   return all;
+}
+
+std::string key_of(const std::string& head, const PreparedRun::Changes& changed) {
+  std::string key = head;
+  for (const auto& [path, value] : changed) key += path + "=" + exact_text(value) + ";";
+  return key;
 }
 
 std::string hash(const std::string& text) {
@@ -89,99 +64,10 @@ ObservableModel::ObservableModel(const Problem& p, RunStore& store)
   read_points();
   choose_candidates();
   choose_nuisances();
-}
-
-void ObservableModel::read_points() {
-  const std::size_t n = problem.conditions.size();
-  wanted.resize(n);
-  point_index.resize(n);
-  std::map<std::pair<int, std::string>, int> series;
-  std::set<std::tuple<int, std::string, double>> seen;
-  for (const Measurement& m : problem.measurements) {
-    const auto found = std::find_if(problem.conditions.begin(), problem.conditions.end(),
-                                    [&](const Condition& c) { return c.name == m.condition; });
-    if (found == problem.conditions.end()) {
-      std::vector<std::string> names;
-      for (const Condition& c : problem.conditions) names.push_back(c.name);
-      throw InputError(where(m) + ": there is no condition \"" + m.condition + "\". " +
-                       suggestion(m.condition, names, "condition"));
-    }
-    const Observable& about = find_observable(observer, m);
-    if (m.unit.empty()) throw InputError(where(m) + ": " + m.quantity + " has no unit.");
-    const double scale = factor(m.unit, about.unit, where(m) + ", " + m.quantity);
-    DataPoint point;
-    point.condition = static_cast<int>(found - problem.conditions.begin());
-    point.quantity = m.quantity;
-    point.unit_scale = scale;
-    point.value = scale * m.value;
-    point.sigma = scale * m.standard_uncertainty;
-    point.correlated_sigma = scale * m.correlated_uncertainty;
-    point.coordinate = std::numeric_limits<double>::quiet_NaN();
-    if (!std::isfinite(m.value)) throw InputError(where(m) + ": the value is not a finite number.");
-    if (!(m.standard_uncertainty > 0) || !std::isfinite(m.standard_uncertainty))
-      throw InputError(where(m) + ": the standard uncertainty must be positive and finite.");
-    if (!about.coordinate.empty()) {
-      if (!std::isfinite(m.coordinate) || m.coordinate_unit.empty())
-        throw InputError(where(m) + ": " + m.quantity + " needs its " + about.coordinate +
-                         " as coordinate, in " + about.coordinate_unit + ".");
-      const double c = factor(m.coordinate_unit, about.coordinate_unit, where(m) + ", coordinate");
-      point.coordinate = c * m.coordinate;
-      point.correlation_length = c * m.correlation_length;
-    } else if (std::isfinite(m.coordinate)) {
-      throw InputError(where(m) + ": " + m.quantity + " has no coordinate; leave it and its unit empty.");
-    }
-    point.series =
-        series.try_emplace({point.condition, m.quantity}, static_cast<int>(series.size())).first->second;
-    point_index[point.condition].push_back(data.size());
-    wanted[point.condition].push_back({m.quantity, std::isfinite(point.coordinate) ? point.coordinate : 0});
-    data.push_back(point);
-  }
-  series_count = static_cast<int>(series.size());
-  for (std::size_t c = 0; c < n; ++c)
-    if (wanted[c].empty())
-      throw InputError("nothing was measured under the condition \"" + problem.conditions[c].name +
-                       "\". Remove it or add its measurements.");
-}
-
-void ObservableModel::choose_candidates() {
-  all_candidates = problem.candidates;
-  if (all_candidates.empty()) {
-    std::vector<std::string> names;
-    // One realisation of a random effect is no signature; it can still be asked for by name.
-    for (const EffectDefinition& effect : effect_catalogue())
-      if (!effect.record.random) names.push_back(effect.record.name);
-    for (const EffectRecord& record : contact_effect_records()) names.push_back(record.name);
-    for (const std::string& name : names) {
-      const std::string path = "Effects/" + name + "/Strength";
-      if (name == "Inferred law" || !has_entry(path)) continue;
-      if (base_value(path, 0) == 0) all_candidates.push_back({name, {{path, 0, 1}}});
-    }
-  }
-  for (const Candidate& candidate : all_candidates)
-    for (const Candidate::Entry& entry : candidate.entries) base_value(entry.path, 0);
-  if (all_candidates.empty())
-    throw InputError("There is no candidate: every effect of the catalogue is on in the base model.");
-}
-
-void ObservableModel::choose_nuisances() {
-  all_nuisances = problem.nuisances;
-  if (all_nuisances.empty())
-    for (const UsualUncertainty& u : observer.uncertainties)
-      all_nuisances.push_back({u.name, u.path, u.standard_deviation, u.relative, u.each_condition});
-  const std::size_t n = problem.conditions.size();
-  for (std::size_t k = 0; k < all_nuisances.size(); ++k) {
-    const Nuisance& nuisance = all_nuisances[k];
-    if (!(nuisance.standard_deviation > 0) || !std::isfinite(nuisance.standard_deviation))
-      throw InputError("The uncertainty of \"" + nuisance.path + "\" must be positive.");
-    std::map<double, std::size_t> group;
-    for (std::size_t c = 0; c < n; ++c) {
-      const double value = base_value(nuisance.path, static_cast<int>(c));
-      const double key = nuisance.each_condition ? static_cast<double>(c) : value;
-      const auto [found, fresh] = group.try_emplace(key, errors.size());
-      if (fresh) errors.push_back({static_cast<int>(k), std::vector<bool>(n, false)});
-      errors[found->second].applies[c] = true;
-    }
-  }
+  if (!observer.random_entry.empty()) n_repeats = problem.budget.repeats;
+  allowed = problem.budget.runs;
+  for (std::size_t c = 0; c < ready.size(); ++c)
+    key_heads.push_back(key_head(problem.conditions[c], wanted[c]));
 }
 
 const PreparedRun& ObservableModel::prepare(const Condition& condition) {
@@ -224,48 +110,129 @@ std::vector<std::pair<std::string, double>> ObservableModel::changes(const Setti
   return {values.begin(), values.end()};
 }
 
-const RunOutcome& ObservableModel::run(const Condition& condition, const PreparedRun& model,
-                                       const std::vector<std::pair<std::string, double>>& changed,
-                                       const std::vector<WantedValue>& values) {
-  ++n_runs;
-  std::string what;
+std::string ObservableModel::key_head(const Condition& condition,
+                                      const std::vector<WantedValue>& values) const {
+  std::string what = identity + "|" + joined(condition.overrides) + "|";
   for (const WantedValue& w : values) what += w.quantity + "@" + exact_text(w.coordinate) + ",";
-  std::string key = identity + "|" + joined(condition.overrides) + "|";
-  for (const auto& [path, value] : changed) key += path + "=" + exact_text(value) + ";";
-  key += "|" + hash(what);
-  const RunOutcome& outcome = store.get(key, [&] { return model.observe(changed, values); });
+  return condition.name + "|" + hash(what) + "|";
+}
+
+std::vector<std::string> ObservableModel::choices(const Setting& setting) const {
+  std::vector<std::string> all;
+  for (const auto& [k, a] : setting.amplitude)
+    if (a > 0.5) all.insert(all.end(), all_candidates[k].choices.begin(), all_candidates[k].choices.end());
+  return all;
+}
+
+ObservableModel::Chosen ObservableModel::chosen(const Setting& setting, int c) {
+  const std::vector<std::string> texts = choices(setting);
+  if (texts.empty()) return {problem.conditions[c], ready[c], key_heads[c]};
+  Chosen other{problem.conditions[c], nullptr, ""};
+  other.condition.overrides.insert(other.condition.overrides.end(), texts.begin(), texts.end());
+  try {
+    other.model = &prepare(other.condition);
+  } catch (const InputError& error) {
+    other.error = error.what();
+  }
+  other.key_head = key_head(other.condition, wanted[c]);
+  return other;
+}
+
+bool ObservableModel::may_run(const std::string& key) {
+  if (asked_for.count(key)) return true;
+  if (n_runs >= allowed) {
+    refused = true;
+    refusal.error = "the budget of runs is used up";
+    return false;
+  }
+  ++n_runs;
+  asked_for.insert(key);
+  return true;
+}
+
+std::vector<PreparedRun::Changes> ObservableModel::repeated(const Setting& setting, int condition) const {
+  std::vector<PreparedRun::Changes> all(n_repeats, changes(setting, condition));
+  for (int r = 1; r < n_repeats; ++r)
+    all[r].emplace_back(observer.random_entry, base_value(observer.random_entry, condition) + r);
+  return all;
+}
+
+void ObservableModel::prepare_runs(const std::vector<Setting>& settings) {
+  int size = 1;
+  MPI_Comm_size(store.comm(), &size);
+  if (size == 1) return;  // nothing is gained beforehand
+  std::vector<RunStore::Task> tasks;
+  std::unordered_set<std::string> listed;
+  for (const Setting& setting : settings)
+    for (std::size_t c = 0; c < ready.size(); ++c) {
+      const Chosen model = chosen(setting, static_cast<int>(c));
+      if (!model.model) continue;
+      for (const PreparedRun::Changes& changed : repeated(setting, static_cast<int>(c))) {
+        const std::string key = key_of(model.key_head, changed);
+        if (!listed.insert(key).second || !may_run(key)) continue;
+        tasks.push_back({key, [this, c, changed, run = model.model] {
+                           return run->observe(changed, wanted[c], MPI_COMM_SELF);
+                         }});
+      }
+    }
+  store.share(tasks);
+}
+
+const RunOutcome& ObservableModel::run(const Asked& asked, const PreparedRun::Changes& changed) {
+  const std::string key = key_of(asked.key_head, changed);
+  if (!may_run(key)) return refusal;
+  const RunOutcome& outcome =
+      store.get(key, [&] { return asked.model.observe(changed, asked.values, store.comm()); });
   if (!outcome.ok()) {
-    RunRecord record{condition.name, {}, outcome.error, outcome.seconds};
+    RunRecord record{asked.condition.name, {}, outcome.error, outcome.seconds};
     for (const auto& [path, value] : changed) record.overrides.push_back(path + "=" + exact_text(value));
-    const bool known = std::any_of(failed.begin(), failed.end(), [&](const RunRecord& r) {
-      return r.condition == record.condition && r.overrides == record.overrides;
-    });
-    if (!known) failed.push_back(record);
+    note_failure(record);
   }
   return outcome;
+}
+
+void ObservableModel::note_failure(const RunRecord& record) {
+  const bool known = std::any_of(failed.begin(), failed.end(), [&](const RunRecord& r) {
+    return r.condition == record.condition && r.overrides == record.overrides;
+  });
+  if (!known) failed.push_back(record);
 }
 
 Eigen::VectorXd ObservableModel::predict(const Setting& setting) {
   Eigen::VectorXd all = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(data.size()),
                                                   std::numeric_limits<double>::quiet_NaN());
   for (std::size_t c = 0; c < ready.size(); ++c) {
-    const RunOutcome& outcome =
-        run(problem.conditions[c], *ready[c], changes(setting, static_cast<int>(c)), wanted[c]);
-    if (!outcome.ok()) continue;
-    for (std::size_t i = 0; i < point_index[c].size(); ++i)
-      all[static_cast<Eigen::Index>(point_index[c][i])] = outcome.values[i];
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wanted[c].size()));
+    bool ok = true;
+    const Chosen model = chosen(setting, static_cast<int>(c));
+    if (!model.model) {
+      note_failure({model.condition.name, model.condition.overrides, model.error, 0});
+      continue;
+    }
+    for (const PreparedRun::Changes& changed : repeated(setting, static_cast<int>(c))) {
+      const RunOutcome& outcome = run({model.condition, *model.model, wanted[c], model.key_head}, changed);
+      ok = ok && outcome.ok();
+      for (Eigen::Index i = 0; i < sum.size() && ok; ++i) sum[i] += outcome.values[i];
+    }
+    for (Eigen::Index i = 0; i < sum.size() && ok; ++i)
+      all[static_cast<Eigen::Index>(point_index[c][i])] = sum[i] / n_repeats;
   }
   return all;
 }
 
 Eigen::VectorXd ObservableModel::predict_condition(const Condition& condition, int like,
                                                    const Setting& setting) {
-  const RunOutcome& outcome = run(condition, prepare(condition), changes(setting, like), wanted[like]);
-  if (!outcome.ok())
-    return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(wanted[like].size()),
-                                     std::numeric_limits<double>::quiet_NaN());
-  return Eigen::Map<const Eigen::VectorXd>(outcome.values.data(),
-                                           static_cast<Eigen::Index>(outcome.values.size()));
+  const auto n = static_cast<Eigen::Index>(wanted[like].size());
+  Condition with_choices = condition;
+  for (const std::string& text : choices(setting)) with_choices.overrides.push_back(text);
+  const std::string head = key_head(with_choices, wanted[like]);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+  for (const PreparedRun::Changes& changed : repeated(setting, like)) {
+    const RunOutcome& outcome = run({with_choices, prepare(with_choices), wanted[like], head}, changed);
+    if (!outcome.ok()) return Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+    sum += Eigen::Map<const Eigen::VectorXd>(outcome.values.data(), n);
+  }
+  return sum / n_repeats;
 }
 
 Eigen::VectorXd ObservableModel::regime(const std::string& name) {
@@ -284,7 +251,8 @@ Eigen::VectorXd ObservableModel::regime(const std::string& name) {
       index.push_back(i);
     }
     if (values.empty()) continue;
-    const RunOutcome& outcome = run(problem.conditions[c], *ready[c], {}, values);
+    const RunOutcome& outcome =
+        run({problem.conditions[c], *ready[c], values, key_head(problem.conditions[c], values)}, {});
     for (std::size_t i = 0; i < index.size() && outcome.ok(); ++i)
       all[static_cast<Eigen::Index>(index[i])] = outcome.values[i];
   }
@@ -295,6 +263,41 @@ const std::string& ObservableModel::coordinate_name(const std::string& quantity)
   return std::find_if(observer.observables.begin(), observer.observables.end(),
                       [&](const Observable& o) { return o.name == quantity; })
       ->coordinate;
+}
+
+std::map<std::string, double> ObservableModel::add_scatter() {
+  std::map<std::string, double> square, freedom, error;
+  if (n_repeats < 2) return error;
+  for (std::size_t c = 0; c < ready.size(); ++c) {
+    std::vector<std::vector<double>> values;
+    for (const PreparedRun::Changes& changed : repeated({}, static_cast<int>(c))) {
+      const RunOutcome& outcome = run({problem.conditions[c], *ready[c], wanted[c], key_heads[c]}, changed);
+      if (outcome.ok()) values.push_back(outcome.values);
+    }
+    if (values.size() < 2) continue;
+    for (std::size_t i = 0; i < wanted[c].size(); ++i) {
+      double mean = 0;
+      for (const auto& v : values) mean += v[i] / static_cast<double>(values.size());
+      for (const auto& v : values) square[wanted[c][i].quantity] += (v[i] - mean) * (v[i] - mean);
+      freedom[wanted[c][i].quantity] += static_cast<double>(values.size()) - 1;
+    }
+  }
+  for (const auto& [quantity, sum] : square) error[quantity] = std::sqrt(sum / freedom[quantity] / n_repeats);
+  for (DataPoint& point : data)
+    if (error.count(point.quantity)) point.sigma = std::hypot(point.sigma, error[point.quantity]);
+  return error;
+}
+
+double ObservableModel::share_in_range(const std::string& effect) {
+  if (!ready[0]->share_in_range) return 1;
+  double sum = 0, n = 0;
+  for (std::size_t c = 0; c < ready.size(); ++c) {
+    const RunOutcome& outcome = store.get("in range|" + effect + "|" + key_heads[c], [&] {
+      return std::vector<double>{ready[c]->share_in_range(effect)};
+    });
+    if (outcome.ok()) sum += outcome.values[0], ++n;
+  }
+  return n > 0 ? sum / n : 1;
 }
 
 std::vector<std::string> ObservableModel::idle_effects() {

@@ -9,6 +9,7 @@
 #include "seedflow/base/parameter_file.h"
 #include "seedflow/base/units.h"
 #include "seedflow/effects/catalogue.h"
+#include "seedflow/effects/contact_effects.h"
 
 namespace seedflow {
 
@@ -23,7 +24,10 @@ std::string trim(const std::string& s) {
 Candidate read_candidate(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals != std::string::npos) {
-    const std::string path = trim(text.substr(0, equals));
+    const std::string path = trim(text.substr(0, equals)), value = trim(text.substr(equals + 1));
+    const std::string last = path.substr(path.rfind('/') + 1);
+    if (!value.empty() && std::isalpha(static_cast<unsigned char>(value[0])))
+      return {last + " = " + value, {}, {path + "=" + value}};
     NumberWithUnit parts;
     try {
       parts = split_unit(text.substr(equals + 1));
@@ -31,10 +35,10 @@ Candidate read_candidate(const std::string& text) {
       throw InputError("Candidates: \"" + text + "\": " + error.what());
     }
     const Unit unit = parts.unit.empty() ? Unit() : parse_unit(parts.unit);
-    return {path.substr(path.rfind('/') + 1),
-            {{path, 0, std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent)}}};
+    return {last, {{path, 0, std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent)}}};
   }
-  const std::vector<std::string> names = effect_names();
+  std::vector<std::string> names = effect_names();
+  for (const EffectRecord& record : contact_effect_records()) names.push_back(record.name);
   if (std::find(names.begin(), names.end(), text) == names.end())
     throw InputError("Candidates: there is no effect \"" + text + "\". " + suggestion(text, names, "effect"));
   return {text, {{"Effects/" + text + "/Strength", 0, 1}}};
@@ -51,12 +55,15 @@ void ProblemFile::declare(Parameters& p) {
          "CSV like Conditions: what could be measured next. Nothing: variations of the conditions.");
   p.texts("Candidates", candidates,
           "Effects that may be missing, or PATH = VALUE for an entry that is 0 without the effect and VALUE "
-          "with it. Nothing: every effect of the catalogue that is off in the model.");
+          "with it, or PATH = OPTION for a choice. Nothing: every effect of the catalogue that is off in the "
+          "model.");
   p.texts(
       "Nuisances", nuisances,
       "Inputs with their standard uncertainty, as in Seeds/Diameter +- 1 %; with the word each behind it, "
       "every condition has an error of its own. Nothing: those usual for the experiment.");
   p.integer("Runs", runs, {1, 1e9, false}, "The most runs of single conditions.");
+  p.integer("Repeats", repeats, Range::between(2, 1000),
+            "Of every run with other random numbers, where repetitions of the experiment scatter.");
   p.integer("Effects at once", largest_names, Range::between(1, 3), "The most effects to name together.");
 }
 
@@ -98,6 +105,12 @@ Problem read_problem(const std::string& file, const std::vector<std::string>& ov
     (scan_override(text).sections.empty() && scan_override(text).name != "Experiment" ? own
                                                                                       : problem.overrides)
         .push_back(text);
+  if (const ParameterLine line = find_parameter_line(file, {}, "Experiment"); !line.name.empty())
+    throw InputError(line.where + ": this is the parameter file of an experiment (" + line.value +
+                     "). A diagnosis has a file of its own:\n  set Model        = " +
+                     std::filesystem::path(file).filename().string() +
+                     "\n  set Measurements = measurements.csv\n  set Conditions   = conditions.csv\n"
+                     "doc/diagnosis.md tells what stands in the two; prm/diagnosis/ has examples.");
   parameters.read(file, own);
   for (const char* needed : {"Model", "Measurements", "Conditions"})
     if (parameters.value(needed).empty()) parameters.reject(needed, "it is missing", "name a file");
@@ -109,7 +122,7 @@ Problem read_problem(const std::string& file, const std::vector<std::string>& ov
     problem.possible_experiments = read_conditions(input.possible_experiments);
   for (const std::string& text : input.candidates) problem.candidates.push_back(read_candidate(text));
   for (const std::string& text : input.nuisances) problem.nuisances.push_back(read_nuisance(text));
-  problem.budget = {input.runs, input.largest_names};
+  problem.budget = {input.runs, input.largest_names, input.repeats};
   return problem;
 }
 

@@ -15,7 +15,52 @@ Eigen::VectorXd change(const Eigen::VectorXd& values, const Eigen::VectorXd& bas
   return d;
 }
 
+constexpr double nodes[3] = {0.6, 1.0, 1.4};  // amplitudes of the cubic
+
+Setting half_step() {
+  Setting setting;
+  setting.step_factor = 0.5;
+  return setting;
+}
+
 }  // namespace
+
+Setting Responses::at_full_strength(const std::vector<int>& set) {
+  Setting setting;
+  for (const int k : set) setting.amplitude[k] = 1;
+  return setting;
+}
+
+Setting Responses::with_input(const std::vector<int>& set, int nuisance) const {
+  // Errors of one nuisance act in different conditions: one run of each condition shows them all.
+  Setting setting = at_full_strength(set);
+  for (std::size_t e = 0; e < model.uncertain_inputs().size(); ++e)
+    if (model.uncertain_inputs()[e].nuisance == nuisance) setting.error[static_cast<int>(e)] = input_step();
+  return setting;
+}
+
+void Responses::prepare() {
+  std::vector<Setting> settings = {{}};
+  for (int k = 0; k < static_cast<int>(model.candidates().size()); ++k)
+    for (const double a : nodes) {
+      if ((frugal || model.candidates()[k].entries.empty()) && a != 1) continue;
+      settings.push_back({});
+      settings.back().amplitude[k] = a;
+    }
+  for (int m = 0; m < static_cast<int>(model.nuisances().size()); ++m) settings.push_back(with_input({}, m));
+  if (model.can_halve_step()) settings.push_back(half_step());
+  model.prepare_runs(settings);
+}
+
+void Responses::prepare(const std::vector<std::vector<int>>& sets) {
+  std::vector<Setting> settings;
+  for (const std::vector<int>& set : sets) {
+    settings.push_back(at_full_strength(set));
+    for (int m = 0; m < static_cast<int>(model.nuisances().size()) && !frugal; ++m)
+      settings.push_back(with_input(set, m));
+  }
+  model.prepare_runs(settings);
+}
 
 const Eigen::VectorXd& Responses::base() {
   if (base_values.size() == 0) base_values = model.predict({});
@@ -25,9 +70,7 @@ const Eigen::VectorXd& Responses::base() {
 const Eigen::VectorXd& Responses::full(const std::vector<int>& set) {
   auto& values = full_values[set];
   if (values.size() == 0) {
-    Setting setting;
-    for (const int k : set) setting.amplitude[k] = 1;
-    values = model.predict(setting);
+    values = model.predict(at_full_strength(set));
   }
   return values;
 }
@@ -52,11 +95,11 @@ Responses::Value Responses::at(const std::vector<int>& set, const std::vector<do
   v.slope = Eigen::MatrixXd::Zero(base().size(), static_cast<Eigen::Index>(set.size()));
   for (std::size_t i = 0; i < set.size(); ++i) {
     auto& c = cubic[set[i]];
-    if (c.size() == 0 && frugal) {
+    const bool choice = model.candidates()[set[i]].entries.empty();
+    if (c.size() == 0 && (frugal || choice)) {
       c = Eigen::MatrixXd::Zero(base().size(), 3);
       c.col(0) = change(full({set[i]}), base());
     } else if (c.size() == 0) {
-      const double nodes[3] = {0.6, 1.0, 1.4};
       Eigen::Matrix3d powers;
       Eigen::MatrixXd values(base().size(), 3);
       for (int k = 0; k < 3; ++k) {
@@ -93,12 +136,8 @@ const Eigen::MatrixXd& Responses::inputs(const std::vector<int>& wanted_set) {
   const Eigen::VectorXd reference = set.empty() ? base() : full(set);
   columns.setZero(reference.size(), static_cast<Eigen::Index>(model.uncertain_inputs().size()));
   for (std::size_t k = 0; k < model.nuisances().size(); ++k) {
-    // Errors of one nuisance act in different conditions: one run of each condition shows them all.
-    Setting setting;
-    for (const int c : set) setting.amplitude[c] = 1;
-    for (std::size_t e = 0; e < model.uncertain_inputs().size(); ++e)
-      if (model.uncertain_inputs()[e].nuisance == static_cast<int>(k)) setting.error[static_cast<int>(e)] = 1;
-    const Eigen::VectorXd moved = change(model.predict(setting), reference);
+    const Setting setting = with_input(set, static_cast<int>(k));
+    const Eigen::VectorXd moved = change(model.predict(setting), reference) / input_step();
     for (const auto& [e, theta] : setting.error)
       for (Eigen::Index i = 0; i < moved.size(); ++i)
         if (model.uncertain_inputs()[e].applies[model.points()[i].condition]) columns(i, e) = moved[i];
@@ -113,9 +152,7 @@ const Eigen::MatrixXd& Responses::numerics() {
     numerical.setZero(base().size(), 0);
     return numerical;
   }
-  Setting setting;
-  setting.step_factor = 0.5;
-  const Eigen::VectorXd error = 4.0 / 3 * change(model.predict(setting), base());
+  const Eigen::VectorXd error = 4.0 / 3 * change(model.predict(half_step()), base());
   numerical.setZero(base().size(), static_cast<Eigen::Index>(model.conditions().size()));
   for (Eigen::Index i = 0; i < error.size(); ++i) numerical(i, model.points()[i].condition) = error[i];
   return numerical;

@@ -7,29 +7,20 @@
 
 #include "seedflow/base/error.h"
 #include "seedflow/base/together.h"
+#include "seedflow/base/work_counter.h"
 #include "seedflow/output/folder.h"
 
 namespace seedflow {
 
-RunStore::RunStore(const std::filesystem::path& folder, MPI_Comm comm) {
-  const std::filesystem::path path = folder / "runs.jsonl";
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  std::string text;
-  together(comm, [&] {
-    if (rank != 0) return;
-    prepare_output_folder(folder);
-    if (std::filesystem::exists(path)) text = read_file(path);
-    file.reset(std::fopen(path.c_str(), "a"));
-    if (!file)
-      throw InputError("The file '" + path.string() + "' cannot be written. Choose another --output.");
-    // Ends the line that a killed process left open.
-    if (!text.empty() && text.back() != '\n') std::fputc('\n', file.get());
-  });
-  unsigned long size = text.size();
-  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm);
-  text.resize(size);
-  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, comm);
+namespace {
+
+std::string line_of(const std::string& key, const RunOutcome& outcome) {
+  const nlohmann::ordered_json record = {
+      {"key", key}, {"values", outcome.values}, {"error", outcome.error}, {"seconds", outcome.seconds}};
+  return record.dump() + "\n";
+}
+
+void read_lines(const std::string& text, std::unordered_map<std::string, RunOutcome>& outcomes) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const auto record = nlohmann::json::parse(line, nullptr, false);
@@ -42,11 +33,49 @@ RunStore::RunStore(const std::filesystem::path& folder, MPI_Comm comm) {
   }
 }
 
+/// The texts of all ranks, on all ranks.
+std::string gathered(const std::string& mine, MPI_Comm comm) {
+  int size = 1, length = static_cast<int>(mine.size());
+  MPI_Comm_size(comm, &size);
+  std::vector<int> lengths(size), starts(size);
+  MPI_Allgather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, comm);
+  int total = 0;
+  for (int r = 0; r < size; ++r) starts[r] = total, total += lengths[r];
+  std::string all(total, ' ');
+  MPI_Allgatherv(mine.data(), length, MPI_CHAR, all.data(), lengths.data(), starts.data(), MPI_CHAR, comm);
+  return all;
+}
+
+}  // namespace
+
+RunStore::RunStore(const std::filesystem::path& folder, MPI_Comm comm) : ranks(comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string text;
+  together(comm, [&] {
+    if (rank != 0) return;
+    prepare_output_folder(folder);
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name.rfind("runs.", 0) == 0 && entry.path().extension() == ".jsonl")
+        text += read_file(entry.path()) + "\n";
+    }
+  });
+  read_lines(gathered(text, comm), outcomes);
+  const std::filesystem::path path =
+      folder / (rank == 0 ? "runs.jsonl" : "runs." + std::to_string(rank) + ".jsonl");
+  together(comm, [&] {
+    file.reset(std::fopen(path.c_str(), "a"));
+    if (!file)
+      throw InputError("The file '" + path.string() + "' cannot be written. Choose another --output.");
+    // Ends the line that a killed process may have left open.
+    if (std::filesystem::file_size(path) > 0) std::fputc('\n', file.get());
+  });
+}
+
 RunStore::~RunStore() = default;
 
-const RunOutcome& RunStore::get(const std::string& key, const std::function<std::vector<double>()>& run) {
-  const auto found = outcomes.find(key);
-  if (found != outcomes.end()) return found->second;
+RunOutcome RunStore::make(const std::string& key, const std::function<std::vector<double>()>& run) {
   RunOutcome outcome;
   const auto begin = std::chrono::steady_clock::now();
   try {
@@ -60,15 +89,46 @@ const RunOutcome& RunStore::get(const std::string& key, const std::function<std:
   }
   if (!outcome.ok()) outcome.values.clear();
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  ++n_computed;
   if (file) {
-    const nlohmann::ordered_json record = {
-        {"key", key}, {"values", outcome.values}, {"error", outcome.error}, {"seconds", outcome.seconds}};
-    const std::string line = record.dump() + "\n";
+    const std::string line = line_of(key, outcome);
     if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size() || std::fflush(file.get()) != 0)
       throw RunError("The record of a run could not be written. Remedy: free the disk and start again.");
   }
+  return outcome;
+}
+
+const RunOutcome& RunStore::get(const std::string& key, const std::function<std::vector<double>()>& run) {
+  const auto found = outcomes.find(key);
+  if (found != outcomes.end()) return found->second;
+  const RunOutcome outcome = make(key, run);
+  ++n_computed;
   return outcomes[key] = outcome;
+}
+
+void RunStore::share(const std::vector<Task>& tasks) {
+  int size = 1;
+  MPI_Comm_size(ranks, &size);
+  std::vector<const Task*> missing;
+  for (const Task& task : tasks)
+    if (!remembers(task.key)) missing.push_back(&task);
+  if (missing.empty()) return;
+  std::string mine;
+  int interrupted = 0;
+  {
+    WorkCounter counter(ranks);
+    together(ranks, [&] {
+      try {
+        for (auto i = counter.next(); i < static_cast<long>(missing.size()); i = counter.next())
+          mine += line_of(missing[i]->key, make(missing[i]->key, missing[i]->run));
+      } catch (const Interrupted&) {
+        interrupted = 1;  // finished runs of the other ranks are in their files
+      }
+    });
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &interrupted, 1, MPI_INT, MPI_MAX, ranks);
+  if (interrupted) throw Interrupted();
+  read_lines(gathered(mine, ranks), outcomes);
+  n_computed += static_cast<long>(missing.size());
 }
 
 const PreparedRun& RunStore::prepared(const std::string& key, const std::function<PreparedRun()>& prepare) {

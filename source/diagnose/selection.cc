@@ -22,16 +22,15 @@ std::vector<std::vector<int>> grown(Weighing& weighing, const std::vector<Weighe
                                     const std::vector<bool>& use) {
   std::set<std::vector<int>> seen;
   std::vector<Weighed> screened;
-  const std::vector<NoiseVariant> stated = {noise_variants()[0]};
   for (std::size_t p = 0; p < std::min(n_parents, parents.size()); ++p) {
-    std::vector<NoiseVariant> variants = stated;
-    if (!parents[p].noise.as_stated()) variants.push_back(parents[p].noise);
+    NoiseChains chains = {{stated_noise}};
+    if (!parents[p].noise.as_stated()) chains.push_back({parents[p].noise});
     for (const int k : acting) {
       std::vector<int> set = parents[p].what.set;
       if (std::find(set.begin(), set.end(), k) != set.end()) continue;
       set.push_back(k);
       std::sort(set.begin(), set.end());
-      if (seen.insert(set).second) screened.push_back(weighing.weigh({set}, use, false, variants));
+      if (seen.insert(set).second) screened.push_back(weighing.weigh({set}, use, false, chains));
     }
   }
   sort_by_score(screened);
@@ -66,18 +65,20 @@ void predict_held_out(Weighing& weighing, const DataNoise& noise, const std::vec
 
 std::vector<Tried> select(Weighing& weighing, const DataNoise& noise, const Split& split,
                           const std::vector<int>& acting, int largest) {
-  const std::vector<NoiseVariant>& variants = noise_variants();
+  const NoiseChains& chains = noise_chains();
   std::vector<Weighed> all, level;
-  all.push_back(weighing.weigh({}, split.training, true, variants));
+  all.push_back(weighing.weigh({}, split.training, true, chains));
   for (const int k : weighing.inputs_that_may_be_off())
-    all.push_back(weighing.weigh({{}, k}, split.training, true, variants));
-  for (const int k : acting) level.push_back(weighing.weigh({{k}}, split.training, true, variants));
+    all.push_back(weighing.weigh({{}, k}, split.training, true, chains));
+  for (const int k : acting) level.push_back(weighing.weigh({{k}}, split.training, true, chains));
   sort_by_score(level);
   all.insert(all.end(), level.begin(), level.end());
   for (int size = 2; size <= largest; ++size) {
     std::vector<Weighed> next;
-    for (const std::vector<int>& set : grown(weighing, level, size == 2 ? 5 : 3, acting, split.training))
-      next.push_back(weighing.weigh({set}, split.training, true, variants));
+    const auto sets = grown(weighing, level, size == 2 ? 5 : 3, acting, split.training);
+    weighing.prepare(sets);
+    for (const std::vector<int>& set : sets)
+      next.push_back(weighing.weigh({set}, split.training, true, chains));
     sort_by_score(next);
     all.insert(all.end(), next.begin(), next.end());
     // A larger set is only worth a search if this size has gained on the smaller one.
@@ -108,7 +109,7 @@ std::vector<Eigen::Index> raise_outliers(DataNoise& noise, const LinearModel& no
     const NoiseVariant* best = nullptr;
     double highest = -1e300;
     for (const NoiseVariant& variant : smooth) {
-      const double e = fit(noise, variant, nothing_missing, use).log_evidence;
+      const double e = WhitenedModel(noise, variant, nothing_missing, use).brief().log_evidence;
       if (e > highest) highest = e, best = &variant;
     }
     double largest = 0, size = 0;

@@ -5,6 +5,13 @@
 
 namespace seedflow {
 
+namespace {
+
+constexpr double far_off = 10;    ///< chi2/n beyond which large discrepancies are likelier than small ones
+constexpr double well_below = 6;  ///< the top of a chain of noise [nats]
+
+}  // namespace
+
 Weighing::Weighing(ObservableModel& model, Responses& responses, const DataNoise& noise, int acting)
     : model(model), responses(responses), noise(noise), acting(acting) {
   measured.resize(static_cast<Eigen::Index>(model.points().size()));
@@ -69,7 +76,7 @@ LinearModel Weighing::linearise(const Hypothesis& what, const std::vector<double
 }
 
 Weighed Weighing::weigh(const Hypothesis& what, const std::vector<bool>& use, bool joint,
-                        const std::vector<NoiseVariant>& variants) {
+                        const NoiseChains& chains) {
   Weighed best;
   best.what = what;
   for (std::size_t i = 0; i < what.set.size(); ++i)
@@ -79,10 +86,11 @@ Weighed Weighing::weigh(const Hypothesis& what, const std::vector<bool>& use, bo
   const Eigen::Index first = first_amplitude();
   std::vector<double> amplitude(what.set.size(), 1.0);
   LinearModel linear = linearise(what, amplitude, joint);
-  for (const NoiseVariant& variant : variants) {
+  double stated = 1;  // chi2/n with the noise as stated
+  const auto score_with = [&](const NoiseVariant& variant) {
     LinearFit now;
     for (int iteration = 0; iteration < 4; ++iteration) {
-      now = fit(noise, variant, linear, use);
+      now = WhitenedModel(noise, variant, linear, use).brief();
       double moved = 0;
       for (std::size_t i = 0; i < amplitude.size(); ++i) {
         const double a =
@@ -94,18 +102,26 @@ Weighed Weighing::weigh(const Hypothesis& what, const std::vector<bool>& use, bo
       linear = linearise(what, amplitude, joint);
     }
     const double score = now.log_evidence - price(what) - (variant.as_stated() ? 0.0 : price_of_noise);
-    if (variant.as_stated()) best.score_as_stated = score, best.chi2_as_stated = now.chi2 / now.points;
-    if (score <= best.score) continue;
-    best.score = score;
-    best.noise = variant;
-    best.amplitude = amplitude;
-    best.deviation.clear();
-    for (std::size_t i = 0; i < amplitude.size(); ++i) {
-      const Eigen::Index c = first + static_cast<Eigen::Index>(i);
-      best.deviation.push_back(amplitude_deviation * std::sqrt(now.covariance(c, c)));
+    if (variant.as_stated())
+      best.score_as_stated = score, best.chi2_as_stated = stated = now.chi2 / now.points;
+    if (score > best.score)
+      best.score = score, best.noise = variant, best.amplitude = amplitude, best.linear = linear;
+    return score;
+  };
+  // Along a chain of growing noise the evidence has one top: the search begins at the end that the scatter
+  // suggests, and stops below the top.
+  for (const std::vector<NoiseVariant>& chain : chains) {
+    double top = -1e300;
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const double score = score_with(stated > far_off ? chain[chain.size() - 1 - i] : chain[i]);
+      if (score < top - well_below) break;
+      top = std::max(top, score);
     }
-    best.linear = linear;
-    best.fit = now;
+  }
+  best.fit = WhitenedModel(noise, best.noise, best.linear, use).full();
+  for (std::size_t i = 0; i < amplitude.size(); ++i) {
+    const Eigen::Index c = first + static_cast<Eigen::Index>(i);
+    best.deviation.push_back(amplitude_deviation * std::sqrt(best.fit.covariance(c, c)));
   }
   return best;
 }

@@ -33,7 +33,7 @@ std::vector<Experiment> experiment_catalogue() {
       {"slope screening study", "what passes, for the paper's seed models or against the inclination",
        run_slope_screening_study, describe_slope_screening},
       {"rotating drum", "two colours of seeds mix in a turning drum", run_rotating_drum,
-       describe_rotating_drum},
+       describe_rotating_drum, rotating_drum_observer},
       {"rotating drum study", "mixing index and surface for the paper's seed models and speeds",
        run_rotating_drum_study, describe_rotating_drum}};
 }

@@ -18,16 +18,16 @@ namespace {
 /// A folder for one run, the same on all ranks; removed at the end.
 class RunFolder {
  public:
-  RunFolder() {
+  explicit RunFolder(MPI_Comm communicator) : comm(communicator) {
     static std::atomic<int> number{0};
     int id[2] = {static_cast<int>(getpid()), number++};
-    MPI_Bcast(id, 2, MPI_INT, 0, MPI_COMM_WORLD);
+    MPI_Bcast(id, 2, MPI_INT, 0, comm);
     path = (std::filesystem::temp_directory_path() /
             ("seedflow-run-" + std::to_string(id[0]) + "-" + std::to_string(id[1])))
                .string();
   }
   ~RunFolder() {
-    MPI_Barrier(MPI_COMM_WORLD);
+    MPI_Barrier(comm);
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);
   }
@@ -35,6 +35,9 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   std::string path;
+
+ private:
+  MPI_Comm comm;
 };
 
 }  // namespace
@@ -44,6 +47,7 @@ Observer make_observer(const FileObserver& given) {
   Observer observer;
   observer.observables = files->observables;
   observer.uncertainties = files->uncertainties;
+  observer.random_entry = files->random_entry;
   observer.prepare = [files](const std::string& prm, const std::vector<std::string>& overrides) {
     RunOptions options;
     options.prm = prm;
@@ -56,14 +60,15 @@ Observer make_observer(const FileObserver& given) {
       files->read(options, [&](const Parameters& p) { value = to_si(p.value(path), p.unit(path)); });
       return value;
     };
-    run.observe = [files, options](const std::vector<std::pair<std::string, double>>& changes,
-                                   const std::vector<WantedValue>& wanted) {
+    run.simulate = [files, options](const PreparedRun::Changes& changes,
+                                    const std::vector<WantedValue>& wanted, MPI_Comm comm) {
       RunOptions changed = options;
+      changed.comm = comm;
       for (const auto& [path, value] : changes) changed.overrides.push_back(path + "=" + exact_text(value));
-      const RunFolder folder;
+      const RunFolder folder(comm);
       changed.output = folder.path;
       files->run(changed);
-      MPI_Barrier(MPI_COMM_WORLD);  // rank 0 has written
+      MPI_Barrier(comm);  // rank 0 has written
       std::vector<double> values;
       for (const WantedValue& w : wanted) values.push_back(files->value(folder.path, w, changed));
       return values;

@@ -40,10 +40,10 @@ const RunOptions& GranularJob::prepared(const RunOptions& options) {
 
 GranularJob::GranularJob(const Parameters&, const RunOptions& run_options, const GranularParameters& granular,
                          const GranularScene& scene)
-    : signals(MPI_COMM_WORLD),
+    : signals(run_options.comm),
       options(prepared(run_options)),
-      writes(rank_of(MPI_COMM_WORLD) == 0),
-      run(granular, scene, MPI_COMM_WORLD) {}
+      writes(rank_of(run_options.comm) == 0),
+      run(granular, scene, run_options.comm) {}
 
 int GranularJob::say_what_it_will_be() const {
   if (writes) std::cout << run.describe() << std::flush;
@@ -51,7 +51,7 @@ int GranularJob::say_what_it_will_be() const {
 }
 
 int GranularJob::finish(Summary& summary, const std::function<void()>& write_files) const {
-  together(MPI_COMM_WORLD, [&] {
+  together(options.comm, [&] {
     if (!writes) return;
     add_contacts(read_series(std::filesystem::path(options.output) / "series.csv"), summary);
     write_files();

@@ -159,8 +159,8 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
   run.value = [base](const std::string& path) {
     return to_si(base->parameters.value(path), base->parameters.unit(path));
   };
-  run.observe = [with](const std::vector<std::pair<std::string, double>>& changes,
-                       const std::vector<WantedValue>& wanted) {
+  run.simulate = [with](const PreparedRun::Changes& changes, const std::vector<WantedValue>& wanted,
+                        MPI_Comm) {
     std::vector<std::string> texts;
     for (const auto& [path, value] : changes) texts.push_back(path + "=" + exact_text(value));
     const auto changed = with(texts);

@@ -124,7 +124,7 @@ int run_oblique_impact(const RunOptions& options) {
     cases.push_back(std::make_unique<ImpactCase>(base.name, options.prm, options.overrides));
   }
   int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_rank(options.comm, &rank);
   if (rank != 0) return exit_done;  // one rank has all the work there is
   if (options.dry_run) {
     std::cout << cases.size() << " condition(s) of " << base.input.angles.size()

@@ -128,7 +128,10 @@ GranularScene RotatingDrum::scene(Gathered& gathered, const std::filesystem::pat
     }
   };
 
-  s.columns = {{"revolutions"}, {"dynamic angle", "deg"}, {"angle in the middle", "deg"}};
+  s.columns = {{"revolutions"},
+               {"dynamic angle", "deg"},
+               {"angle in the middle", "deg"},
+               {"centre of mass angle", "deg"}};
   if (diaphragm)
     for (const double cell : cells) {
       s.columns.push_back({"lacey view " + printed_number(1e3 * cell) + " mm", "%"});
@@ -136,7 +139,8 @@ GranularScene RotatingDrum::scene(Gathered& gathered, const std::filesystem::pat
     }
   s.observe = [this](const Dem& dem, double time) {
     const BedContour bed = measure_contour(dem);
-    std::vector<double> row = {revolutions_at(time), bed.angle / degree, bed.middle_angle / degree};
+    std::vector<double> row = {revolutions_at(time), bed.angle / degree, bed.middle_angle / degree,
+                               centre_of_mass_angle(dem) / degree};
     if (diaphragm)
       for (const double cell : cells)
         for (const bool view : {true, false}) row.push_back(100 * measure_mixing(dem, cell, view).index);
@@ -159,6 +163,14 @@ GranularScene RotatingDrum::scene(Gathered& gathered, const std::filesystem::pat
 
 BedContour RotatingDrum::measure_contour(const Dem& dem) const {
   return bed_contour(spheres_from(front, dem), 0, 0, radius, 0.25 * granular.model.diameter, contour);
+}
+
+double RotatingDrum::centre_of_mass_angle(const Dem& dem) const {
+  std::vector<Vec3> positions;
+  dem.positions(positions);
+  Vec3 sum;
+  for (std::size_t i = 0; i < positions.size(); ++i) sum += dem.masses()[i] * positions[i];
+  return std::atan2(sum.x, -sum.z);
 }
 
 LaceyIndex RotatingDrum::measure_mixing(const Dem& dem, double cell, bool view) const {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "seedflow/experiment/command_of.h"
+#include "seedflow/experiment/file_observer.h"
 #include "seedflow/experiment/granular_report.h"
 #include "seedflow/experiment/measurements.h"
 #include "seedflow/experiment/rotating_drum.h"
@@ -184,7 +185,7 @@ int run_rotating_drum(const RunOptions& options) {
   if (!drum.measurements.empty()) read_measurements(drum.measurements);  // bad input is found now
   RotatingDrum::Gathered gathered;
   int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_rank(options.comm, &rank);
   const GranularScene scene =
       drum.scene(gathered, rank == 0 && !options.dry_run ? fs::path(options.output) : fs::path());
   GranularJob job(parameters, options, drum.granular, scene);
@@ -199,6 +200,8 @@ int run_rotating_drum(const RunOptions& options) {
       summary.observe(observable_of(column), plateau(series, column, drum.plateau_from), "%");
     summary.observe("dynamic_angle", plateau(series, "dynamic angle", drum.plateau_from), "deg");
     summary.observe("angle_in_the_middle", plateau(series, "angle in the middle", drum.plateau_from), "deg");
+    summary.observe("centre_of_mass_angle", plateau(series, "centre of mass angle", drum.plateau_from),
+                    "deg");
     if (drum.diaphragm) summary.observe("measured_lacey_40rpm", reference::measured_plateau, "%");
     add_profile(drum, gathered.profile, &summary, nullptr);
     const BedContour bed = drum.measure_contour(job.run.dem());
@@ -221,6 +224,32 @@ void describe_rotating_drum(std::ostream& out, const std::string& section) {
   Parameters parameters;
   input.declare(parameters);
   parameters.describe(out, section);
+}
+
+Observer rotating_drum_observer() {
+  FileObserver files;
+  files.run = run_rotating_drum;
+  files.read = [](const RunOptions& options, const std::function<void(const Parameters&)>& look) {
+    Input input(options);
+    Parameters parameters;
+    input.declare(parameters);
+    parameters.read(options.prm, options.overrides);
+    input.experiment.check(parameters);
+    look(parameters);
+  };
+  files.observables = {
+      {"surface angle", "rad", "", "", "of a straight line through the middle of the bed's contour"},
+      {"centre of mass angle", "rad", "", "",
+       "of the line from the axis to the centre of mass, to the vertical"}};
+  files.uncertainties = {{"mass of the filling", "Filling/Mass", 0.02, true, false},
+                         {"speed of the drum", "Drum/Speed", 0.01, true, false}};
+  files.value = [](const std::string& folder, const WantedValue& wanted, const RunOptions&) {
+    const Summary summary = Summary::read(fs::path(folder) / "summary.json");
+    return degree *
+           summary.observable(wanted.quantity == "surface angle" ? "dynamic_angle" : "centre_of_mass_angle");
+  };
+  files.random_entry = "Filling/Random number";
+  return make_observer(files);
 }
 
 int run_rotating_drum_study(const RunOptions& options) {

@@ -181,7 +181,7 @@ int run_settling(const RunOptions& options) {
   parameters.read(options.prm, options.overrides);
   p.check(parameters);
 
-  const MPI_Comm comm = MPI_COMM_WORLD;
+  const MPI_Comm comm = options.comm;
   const bool writes = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
   const InterruptGuard signals(comm);  // a signal during the set-up is seen before the first step
   if (!options.dry_run) prepare_output_folder(options.output);

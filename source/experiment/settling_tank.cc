@@ -190,7 +190,7 @@ void require_within_run(const std::vector<Measurement>& data, const TankInput& i
 }  // namespace
 
 int run_settling_tank(const RunOptions& options) {
-  const MPI_Comm comm = MPI_COMM_WORLD;
+  const MPI_Comm comm = options.comm;
   const bool writes = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
   TankInput base;
   Parameters base_parameters;

@@ -183,7 +183,8 @@ void SingleSeedParameters::set(const std::string& path, double value) {
 }
 
 std::vector<SingleSeedSample> run_single_seed(const SingleSeedParameters& p, const std::vector<double>& times,
-                                              std::vector<std::string>* idle) {
+                                              std::vector<std::string>* idle,
+                                              const std::function<void(const EffectSet&)>& look) {
   const PrescribedFlow flow = flow_of(p);
   EffectSet effects = p.effects;
   SingleBodyState start;
@@ -199,6 +200,7 @@ std::vector<SingleSeedSample> run_single_seed(const SingleSeedParameters& p, con
     samples.push_back({body.state(), body.flow_at(body.state(), body.state().time, p.time_step)});
   }
   if (idle) *idle = effects.idle();
+  if (look) look(effects);
   return samples;
 }
 

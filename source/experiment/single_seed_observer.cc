@@ -119,8 +119,8 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
   base->check(parameters);
   PreparedRun run;
   run.value = [base](const std::string& path) { return base->value(path); };
-  run.observe = [base](const std::vector<std::pair<std::string, double>>& changes,
-                       const std::vector<WantedValue>& wanted) {
+  run.simulate = [base](const PreparedRun::Changes& changes, const std::vector<WantedValue>& wanted,
+                        MPI_Comm) {
     SingleSeedParameters changed = *base;
     for (const auto& [path, value] : changes) changed.set(path, value);
     changed.effects.prepare();
@@ -130,6 +130,16 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
     std::vector<std::string> idle;
     run_single_seed(*base, {base->end_time}, &idle);
     return idle;
+  };
+  run.share_in_range = [base](const std::string& effect) {
+    SingleSeedParameters with = *base;
+    with.set("Effects/" + effect + "/Strength", 1);
+    EffectActivity activity;
+    run_single_seed(with, {with.end_time}, nullptr,
+                    [&](const EffectSet& all) { activity = all[effect].activity(); });
+    return activity.evaluations > 0
+               ? static_cast<double>(activity.in_range) / static_cast<double>(activity.evaluations)
+               : 1.0;
   };
   run.parameters_text = [prm, overrides](const std::vector<std::string>& further) {
     SingleSeedParameters p;

@@ -64,7 +64,7 @@ int run_single_seed_experiment(const RunOptions& options) {
   parameters.read(options.prm, options.overrides);
   p.check(parameters);
   int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_rank(options.comm, &rank);
   if (rank != 0) return exit_done;  // one rank has all the work there is
   if (options.dry_run) {
     std::cout << "One seed, " << std::ceil(p.end_time / p.time_step) << " steps of at most " << p.time_step

@@ -14,7 +14,7 @@ namespace {
 
 const std::vector<std::string> tangential_models{"Mindlin without slip", "Mindlin with partial slip"},
     rolling_models{"none", "constant torque", "EPSD"}, restitution_laws{"constant", "viscoelastic"},
-    counterparts{"sphere", "plane"}, cohesions{"none", "JKR", "capillary bridge"};
+    counterparts{"sphere", "plane"}, cohesions{"none", "JKR", "capillary bridge", "by strength"};
 
 void require_option(const std::string& where, const char* entry, const std::string& value,
                     const std::vector<std::string>& options) {
@@ -89,14 +89,15 @@ void ContactProperties::check(const std::string& where) const {
   if (cohesion != "none" && tangential_model != "Mindlin without slip")
     throw InputError(where + "'Tangential model = " + tangential_model +
                      "' is made for contacts without cohesion. Choose 'Mindlin without slip'.");
-  if (cohesion == "JKR") {
+  const bool either = cohesion == "by strength";
+  if (cohesion == "JKR" || either) {
     require(surface_energy > 0, where, "Surface energy", surface_energy,
             "cohesion JKR needs a positive one. Choose 'Cohesion = none' for none.");
   } else {
     require(surface_energy == 0, where, "Surface energy", surface_energy,
             "it acts only with 'Cohesion = JKR'. Choose that, or remove the entry.");
   }
-  if (cohesion == "capillary bridge") {
+  if (cohesion == "capillary bridge" || either) {
     require(surface_tension > 0, where, "Surface tension", surface_tension,
             "a capillary bridge needs a positive one (water: 0.072 N/m).");
     require(bridge_volume > 0, where, "Bridge volume", bridge_volume,

@@ -142,7 +142,8 @@ void MaterialTable::check(const Parameters& p, const std::vector<std::string>& s
                        " in \"" + section.substr(0, section.size() - 1) +
                        "\", or remove the material that does not take part from Materials/Names.");
     pair.properties.check("\"" + section.substr(0, section.size() - 1) + "\": ");
-    if (pair.properties.cohesion == "JKR" && shear_modulus_factor < 1)
+    const std::string& cohesion = pair.properties.cohesion;
+    if ((cohesion == "JKR" || cohesion == "by strength") && shear_modulus_factor < 1)
       p.reject("Materials/Shear modulus factor",
                "the pair \"" + pair_name(pair) +
                    "\" has JKR cohesion, whose neck and work of separation depend on the modulus",

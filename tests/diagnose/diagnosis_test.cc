@@ -100,6 +100,17 @@ TEST(Diagnosis, RunsAreNotRepeatedAfterAnInterruption) {
   EXPECT_EQ(diagnose(p, store).runs_computed, 0);
 }
 
+TEST(Diagnosis, TheBudgetOfRunsHoldsDuringTheSearch) {
+  Problem p = falling_seeds("budget");
+  measure(p, {{"Effects/Added mass/Strength", 1}}, 0.01, 1);
+  p.candidates = {{"Added mass", {{"Effects/Added mass/Strength", 0, 1}}},
+                  {"History force", {{"Effects/History force/Strength", 0, 1}}}};
+  p.budget.runs = 4 * (2 + 6 + 2) * 6;  // just not frugal: all that is wanted takes more
+  const Diagnosis d = diagnose(p);
+  EXPECT_LE(d.runs, p.budget.runs) << report(d);
+  EXPECT_NE(report(d).find("budget"), std::string::npos) << report(d);
+}
+
 TEST(Diagnosis, ACrashingConditionIsReportedAndSurvived) {
   Problem p = falling_seeds("crash");
   measure(p, {{"Effects/Added mass/Strength", 1}}, 0.01, 1);

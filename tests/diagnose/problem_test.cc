@@ -53,6 +53,12 @@ TEST(BadProblem, Measurements) {
   expect_words(broken([](Measurement& m) { m.coordinate = std::nan(""); }), {"time"});
 }
 
+TEST(BadProblem, TheFileOfAnExperimentIsNoDiagnosis) {
+  const std::string file = falling_seeds("experiment").prm;
+  expect_words(message([&] { read_problem(file, {}); }),
+               {"model.prm:1", "single seed", "set Model", "Measurements"});
+}
+
 TEST(BadProblem, ConditionsCandidatesInputsBudget) {
   Problem p = measured();
   p.conditions[2].overrides = {"Seeds/Diamter=1 mm"};

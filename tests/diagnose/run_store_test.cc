@@ -32,6 +32,28 @@ TEST(RunStore, AFinishedRunIsNeverRepeated) {
   EXPECT_EQ(again.computed(), 0);
 }
 
+TEST(RunStoreMpi, SharedRunsAreMadeOnceAndKnownToAll) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const auto folder = std::filesystem::temp_directory_path() / "seedflow_run_store_shared";
+  if (rank == 0) std::filesystem::remove_all(folder);
+  MPI_Barrier(MPI_COMM_WORLD);
+  int mine = 0, all = 0;
+  std::vector<RunStore::Task> tasks;
+  for (int i = 0; i < 20; ++i)
+    tasks.push_back({std::to_string(i), [&mine, i] { return ++mine, std::vector<double>{0.1 * i}; }});
+  {
+    RunStore store(folder, MPI_COMM_WORLD);
+    store.share(tasks);
+    MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(all, 20);
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(store.get(tasks[i].key, tasks[i].run).values[0], 0.1 * i);
+  }
+  // What every rank wrote is read again, whatever their number.
+  RunStore again(folder, MPI_COMM_WORLD);
+  EXPECT_EQ(again.size(), 20u);
+}
+
 TEST(RunStore, ALineCutOffByAKilledProcessIsIgnored) {
   const auto folder = fresh_folder("run_store_cut");
   {

@@ -80,6 +80,7 @@ struct BenchmarkCase {
   BenchmarkTruth truth;
   BenchmarkNoise noise;
   std::uint64_t draw = 0;
+  std::string label() const;  ///< what is hidden, and in what noise
 };
 
 /// How a case ended.
@@ -114,7 +115,9 @@ struct BenchmarkFigure {
 /// Clopper & Pearson (1934), doi:10.1093/biomet/26.4.404: exact interval of a binomial share.
 Interval clopper_pearson(long hits, long of, double confidence = 0.95);
 
-/// Runs all cases over the ranks of MPI_COMM_WORLD, prints the table on rank 0 and returns it.
-std::vector<BenchResult> run_diagnosis_benchmark(long draws, std::ostream& out);
+/// Runs all cases over the ranks of MPI_COMM_WORLD, prints the table on rank 0 and returns it. What is
+/// finished is kept in the folder (nothing: nowhere) and not repeated by the same program.
+std::vector<BenchResult> run_diagnosis_benchmark(long draws, const std::filesystem::path& kept,
+                                                 std::ostream& out);
 
 }  // namespace seedflow

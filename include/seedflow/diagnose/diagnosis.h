@@ -18,6 +18,9 @@ struct Candidate {
   };
   std::string name;
   std::vector<Entry> entries;
+  /// Further entries that are no numbers, "PATH=VALUE", made where the amplitude is above 1/2. A candidate of
+  /// choices alone is there or not: its response to the amplitude is taken as proportional.
+  std::vector<std::string> choices = {};
 };
 
 /// An input known with some uncertainty. Where the conditions give the entry different values, every value
@@ -34,6 +37,7 @@ struct Nuisance {
 struct Budget {
   long runs = 100000;     ///< of the simulation, of one condition each
   int largest_names = 3;  ///< effects at once
+  int repeats = 3;        ///< with other random numbers, of experiments whose repetitions scatter
 };
 
 /// What is asked: which effect is missing between the model `prm` and the measurements?

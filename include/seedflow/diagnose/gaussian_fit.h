@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
@@ -17,8 +18,13 @@ struct NoiseVariant {
   bool as_stated() const { return white_scale == 1 && discrepancy == 0; }
 };
 
+/// Noise of one kind, growing.
+using NoiseChains = std::vector<std::vector<NoiseVariant>>;
+
+/// The noise as stated.
+inline constexpr NoiseVariant stated_noise;
 /// As stated, scaled, with discrepancies: as stated first.
-const std::vector<NoiseVariant>& noise_variants();
+const NoiseChains& noise_chains();
 
 /// Covariance of the measured values without inputs and effects: block-diagonal by series.
 class DataNoise {
@@ -61,8 +67,43 @@ struct LinearFit {
   Eigen::VectorXd innovations;  ///< what every value adds to the ones before it in its series, N(0, 1)
 };
 
-/// Fits the points of the series for which `use` holds. With `prior`, x has that posterior of an earlier fit
-/// instead of N(0, 1): the log density then is the predictive one.
+/// A linear model divided by its noise: what all questions to it share. A series sees few of the directions
+/// (the inputs of its condition), and only those are worked with.
+class WhitenedModel {
+ public:
+  /// Uses the points of the series for which `use` holds. With `prior`, x has that posterior of an earlier
+  /// fit instead of N(0, 1): the log density then is the predictive one.
+  WhitenedModel(const DataNoise& noise, const NoiseVariant& variant, const LinearModel& model,
+                const std::vector<bool>& use, const LinearFit* prior = nullptr);
+
+  /// Evidence, chi-square and the mean alone.
+  LinearFit brief() const;
+  LinearFit full() const;
+  /// As if `direction` were one more column of the model's directions.
+  struct WithDirection {
+    double log_evidence = 0, mean = 0;
+  };
+  WithDirection with(const Eigen::VectorXd& direction) const;
+
+ private:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  struct Part {
+    std::size_t series;
+    std::vector<Eigen::Index> column;  ///< directions that the series sees
+    Eigen::MatrixXd factor;            ///< Cholesky, lower
+    Rows white;                        ///< whitened directions and, last, residual
+  };
+  const DataNoise& noise;
+  std::vector<Part> parts;
+  Eigen::LLT<Eigen::MatrixXd> precision;
+  Eigen::VectorXd x, start;
+  Eigen::MatrixXd root;  ///< of the prior's covariance; empty: unity
+  double chi2 = 0, log_determinant = 0;
+  int points = 0;
+  Eigen::Index all_points = 0;
+};
+
+/// Fits once, in full.
 LinearFit fit(const DataNoise& noise, const NoiseVariant& variant, const LinearModel& model,
               const std::vector<bool>& use, const LinearFit* prior = nullptr);
 

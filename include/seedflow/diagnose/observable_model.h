@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "seedflow/diagnose/diagnosis.h"
@@ -51,14 +52,27 @@ class ObservableModel {
   };
   const std::vector<UncertainInput>& uncertain_inputs() const { return errors; }
 
-  /// Values at all points, NaN in conditions whose run failed.
+  /// Values at all points, NaN in conditions whose run failed or that the budget no longer allows. Where
+  /// repetitions scatter, means over the repeats.
   Eigen::VectorXd predict(const Setting& setting);
+  /// Makes the runs of several settings at once, shared over the ranks; predict() then finds them done.
+  void prepare_runs(const std::vector<Setting>& settings);
+  /// Where repetitions scatter: adds the standard error of the means, pooled over the conditions of the base
+  /// model, to the uncertainty of every point; returns it per quantity [SI]. Empty otherwise.
+  std::map<std::string, double> add_scatter();
+  int repeats() const { return n_repeats; }
+  /// From now on so many runs more than were asked for so far are allowed.
+  void allow(long runs) { allowed = runs; }
+  bool out_of_budget() const { return refused; }
   /// The same for another condition, at the same quantities and coordinates as `like`.
   Eigen::VectorXd predict_condition(const Condition& condition, int like, const Setting& setting);
   /// A regime beside every point (NaN where it has none), in the base model.
   Eigen::VectorXd regime(const std::string& name);
   /// Effects that are on in the base model and do nothing, by condition.
   std::vector<std::string> idle_effects();
+  /// Share of the runs in which an effect that is off would be inside its range, over the conditions; 1 if
+  /// unknown.
+  double share_in_range(const std::string& effect);
   bool can_halve_step() const { return !step_path.empty(); }
   std::size_t points_in(int condition) const { return wanted[condition].size(); }
 
@@ -67,6 +81,8 @@ class ObservableModel {
   /// Candidates and nuisances that the base model already has.
   double base_value(const std::string& path, int condition) const;
   bool has_entry(const std::string& path) const;
+  /// Entries of a setting that are no numbers, "PATH=VALUE".
+  std::vector<std::string> choices(const Setting& setting) const;
 
   const std::vector<RunRecord>& failures() const { return failed; }
   long runs() const { return n_runs; }
@@ -76,15 +92,34 @@ class ObservableModel {
   void choose_candidates();
   void choose_nuisances();
   const PreparedRun& prepare(const Condition& condition);
-  const RunOutcome& run(const Condition& condition, const PreparedRun& ready,
-                        const std::vector<std::pair<std::string, double>>& changes,
-                        const std::vector<WantedValue>& wanted);
+  /// What is asked of the model of one condition.
+  struct Asked {
+    const Condition& condition;
+    const PreparedRun& model;
+    const std::vector<WantedValue>& values;
+    std::string key_head;  ///< of the run's key in the store
+  };
+  std::string key_head(const Condition& condition, const std::vector<WantedValue>& values) const;
+  const RunOutcome& run(const Asked& asked, const PreparedRun::Changes& changes);
+  /// The condition with the choices of a setting's candidates, and the model of it.
+  struct Chosen {
+    Condition condition;
+    const PreparedRun* model;  ///< null if the choices are not allowed
+    std::string key_head;
+    std::string error = "";  ///< why there is no model
+  };
+  Chosen chosen(const Setting& setting, int condition);
+  /// The changes of a setting under one condition, once per repeat.
+  std::vector<PreparedRun::Changes> repeated(const Setting& setting, int condition) const;
+  bool may_run(const std::string& key);
+  void note_failure(const RunRecord& record);
 
   const Problem& problem;
   RunStore& store;
   Observer observer;
   std::string identity;  ///< of the base model
   std::vector<const PreparedRun*> ready;
+  std::vector<std::string> key_heads;  ///< per condition
   std::vector<DataPoint> data;
   std::vector<std::vector<WantedValue>> wanted;       ///< per condition
   std::vector<std::vector<std::size_t>> point_index;  ///< of the wanted values
@@ -94,7 +129,11 @@ class ObservableModel {
   std::string step_path;
   std::vector<RunRecord> failed;
   int series_count = 0;
-  long n_runs = 0;
+  int n_repeats = 1;
+  long n_runs = 0, allowed = 0;
+  bool refused = false;
+  RunOutcome refusal;
+  std::unordered_set<std::string> asked_for;  ///< keys, against the budget
 };
 
 }  // namespace seedflow

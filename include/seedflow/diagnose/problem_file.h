@@ -13,7 +13,7 @@ namespace seedflow {
 struct ProblemFile {
   std::string model, measurements, conditions, possible_experiments;
   std::vector<std::string> candidates, nuisances;
-  int runs = 100000, largest_names = 3;
+  int runs = 100000, largest_names = 3, repeats = 3;
 
   void declare(Parameters& parameters);
 };

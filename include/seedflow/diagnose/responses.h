@@ -20,6 +20,10 @@ class Responses {
     Eigen::VectorXd value;
     Eigen::MatrixXd slope;  ///< one column per candidate of the set, d value/d amplitude
   };
+  /// Makes the runs of base model, candidates, inputs and half step together, shared over the ranks.
+  void prepare();
+  /// The same for sets of candidates and the inputs beside them.
+  void prepare(const std::vector<std::vector<int>>& sets);
   const Eigen::VectorXd& base();
   /// Values of the set at the given amplitudes. `joint`: with the runs of the whole set; otherwise the
   /// candidates' own changes are added up.
@@ -36,6 +40,10 @@ class Responses {
 
  private:
   const Eigen::VectorXd& full(const std::vector<int>& set);
+  static Setting at_full_strength(const std::vector<int>& set);
+  Setting with_input(const std::vector<int>& set, int nuisance) const;
+  /// Standard deviations by which inputs are moved: more where repetitions scatter.
+  double input_step() const { return model.repeats() > 1 ? 4 : 1; }
   Eigen::VectorXd joint_rest(const std::vector<int>& set);
 
   ObservableModel& model;

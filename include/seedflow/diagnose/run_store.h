@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "seedflow/experiment/observation.h"
@@ -28,8 +28,8 @@ struct RunOutcome {
 class RunStore {
  public:
   RunStore() = default;
-  /// All ranks remember; the first one reads and writes the file. Collective. Errors: InputError if the
-  /// folder cannot be written.
+  /// All ranks remember; the first one reads the files, every rank writes one of its own (runs.jsonl,
+  /// runs.1.jsonl, ...). Collective. Errors: InputError if the folder cannot be written.
   explicit RunStore(const std::filesystem::path& folder, MPI_Comm comm = MPI_COMM_SELF);
   ~RunStore();
   RunStore(const RunStore&) = delete;
@@ -39,6 +39,17 @@ class RunStore {
   /// Interrupted) and values that are not finite become a failed outcome.
   const RunOutcome& get(const std::string& key, const std::function<std::vector<double>()>& run);
 
+  /// A run to be made by a single rank.
+  struct Task {
+    std::string key;
+    std::function<std::vector<double>()> run;
+  };
+  /// Makes those that are not remembered, shared over the ranks, each by whoever is free. All ranks remember
+  /// all of them. Collective, with the same keys in the same order everywhere.
+  void share(const std::vector<Task>& tasks);
+  bool remembers(const std::string& key) const { return outcomes.count(key) > 0; }
+  MPI_Comm comm() const { return ranks; }
+
   /// Models made ready, by file content and overrides.
   const PreparedRun& prepared(const std::string& key, const std::function<PreparedRun()>& prepare);
 
@@ -46,8 +57,11 @@ class RunStore {
   std::size_t size() const { return outcomes.size(); }
 
  private:
-  std::map<std::string, RunOutcome> outcomes;
-  std::map<std::string, PreparedRun> ready;
+  RunOutcome make(const std::string& key, const std::function<std::vector<double>()>& run);
+
+  MPI_Comm ranks = MPI_COMM_SELF;
+  std::unordered_map<std::string, RunOutcome> outcomes;
+  std::unordered_map<std::string, PreparedRun> ready;
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };

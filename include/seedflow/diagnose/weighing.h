@@ -39,12 +39,14 @@ class Weighing {
   /// `acting`: candidates that change anything.
   Weighing(ObservableModel& model, Responses& responses, const DataNoise& noise, int acting);
 
-  /// `joint`: the runs of the whole set are made; otherwise changes are added up.
-  Weighed weigh(const Hypothesis& what, const std::vector<bool>& use, bool joint,
-                const std::vector<NoiseVariant>& variants);
+  /// `joint`: the runs of the whole set are made; otherwise changes are added up. `chains`: kinds of noise
+  /// that are tried, the stated one first.
+  Weighed weigh(const Hypothesis& what, const std::vector<bool>& use, bool joint, const NoiseChains& chains);
   /// The linear model of a hypothesis about given amplitudes.
   LinearModel linearise(const Hypothesis& what, const std::vector<double>& amplitude, bool joint);
   double price(const Hypothesis& what) const;
+  /// Makes the runs of several sets together.
+  void prepare(const std::vector<std::vector<int>>& sets) { responses.prepare(sets); }
   /// Nuisances that make sense as inputs that are off altogether.
   std::vector<int> inputs_that_may_be_off() const;
   /// First column of the amplitudes among the directions.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@ struct RunOptions {
   std::string output;                  ///< folder of the results
   bool resume = false;                 ///< continue from the checkpoint in the output folder
   bool dry_run = false;                ///< check everything, say what the run will be, compute nothing
+  MPI_Comm comm = MPI_COMM_WORLD;      ///< the processes that share the run
 };
 
 /// One kind of run, chosen by the top-level entry `Experiment` of the parameter file.

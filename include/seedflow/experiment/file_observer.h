@@ -12,7 +12,7 @@ namespace seedflow {
 /// How an experiment that takes minutes serves as a model of measurements: it is run as a user runs it, into
 /// a folder of its own, and the wanted values are read from its files.
 struct FileObserver {
-  /// The experiment; collective over MPI_COMM_WORLD.
+  /// The experiment; collective over RunOptions::comm.
   int (*run)(const RunOptions&) = nullptr;
   /// Reads file and overrides into parameters that live no longer than the call, then calls `look`.
   std::function<void(const RunOptions&, const std::function<void(const Parameters&)>& look)> read;
@@ -20,7 +20,8 @@ struct FileObserver {
   std::vector<UsualUncertainty> uncertainties;
   /// One value [SI] from the files of a finished run.
   std::function<double(const std::string& folder, const WantedValue&, const RunOptions&)> value;
-  std::string time_step;  ///< entry to be halved for the numerical error; "" where that costs too much
+  std::string random_entry = "";  ///< see Observer::random_entry
+  std::string time_step = "";  ///< entry to be halved for the numerical error; "" where that costs too much
 };
 
 Observer make_observer(const FileObserver& files);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -31,13 +33,18 @@ struct UsualUncertainty {
 struct PreparedRun {
   /// The present value of a numeric entry, SI. InputError if there is none of that path.
   std::function<double(const std::string& path)> value;
-  /// Runs with some entries changed and returns the wanted values in order. Independent of earlier calls.
-  /// Errors: InputError, RunError.
-  std::function<std::vector<double>(const std::vector<std::pair<std::string, double>>& changes,
-                                    const std::vector<WantedValue>& wanted)>
-      observe;
+  using Changes = std::vector<std::pair<std::string, double>>;
+  /// Runs with some entries changed, on the processes of a communicator (collective), and returns the wanted
+  /// values in order. Independent of earlier calls. Errors: InputError, RunError.
+  std::function<std::vector<double>(const Changes&, const std::vector<WantedValue>&, MPI_Comm)> simulate;
+  std::vector<double> observe(const Changes& changes, const std::vector<WantedValue>& wanted,
+                              MPI_Comm comm = MPI_COMM_SELF) const {
+    return simulate(changes, wanted, comm);
+  }
   /// Entries that are on and did nothing in the base run ("" entries none); computed by running it.
   std::function<std::vector<std::string>()> idle_effects;
+  /// Share of the base run, with the effect switched on, that is inside its range of validity; "" if unknown.
+  std::function<double(const std::string& effect)> share_in_range;
   /// The complete .prm with further overrides, to be run as it is.
   std::function<std::string(const std::vector<std::string>& overrides)> parameters_text;
   std::string time_step;  ///< path of the entry whose halving shows the numerical error, or ""
@@ -51,6 +58,8 @@ struct Observer {
   std::function<PreparedRun(const std::string& prm, const std::vector<std::string>& overrides)> prepare;
   /// Known beside every value, for the search of the place: "Reynolds number", ... (may be empty).
   std::vector<std::string> regimes;
+  /// Entry of the random numbers of an experiment whose repetitions scatter (a filling of grains), or "".
+  std::string random_entry;
 };
 
 }  // namespace seedflow

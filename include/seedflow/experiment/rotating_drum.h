@@ -54,6 +54,8 @@ struct RotatingDrum {
 
   double revolutions_at(double time) const { return time * speed / (2 * 3.14159265358979323846); }
   BedContour measure_contour(const Dem& dem) const;
+  /// Of the line from the axis to the seeds' centre of mass, against the vertical [rad].
+  double centre_of_mass_angle(const Dem& dem) const;
   /// Of the seeds seen through the front end (`view`), or of all.
   LaceyIndex measure_mixing(const Dem& dem, double cell, bool view) const;
   SeedPicture picture(const Dem& dem, const std::string& title, const BedContour* contour = nullptr) const;
@@ -67,6 +69,8 @@ inline constexpr double simulated_plateau[3] = {91.39, 90.55, 89.92};
 
 int run_rotating_drum(const RunOptions& options);
 void describe_rotating_drum(std::ostream& out, const std::string& section);
+/// Quantities "surface angle" and "centre of mass angle", both means from Drum/Plateau from on.
+Observer rotating_drum_observer();
 int run_rotating_drum_study(const RunOptions& options);
 
 }  // namespace seedflow

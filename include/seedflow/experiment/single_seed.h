@@ -49,7 +49,8 @@ struct SingleSeedSample {
 /// the names of effects that are on and added nothing.
 std::vector<SingleSeedSample> run_single_seed(const SingleSeedParameters& parameters,
                                               const std::vector<double>& times,
-                                              std::vector<std::string>* idle = nullptr);
+                                              std::vector<std::string>* idle = nullptr,
+                                              const std::function<void(const EffectSet&)>& look = nullptr);
 
 /// C_D = F/(pi/8 rho d^2 w^2) of the seed held in a uniform stream of Reynolds number `reynolds` = rho d
 /// w/mu, from all effects that act on steady motion.

@@ -39,7 +39,7 @@ struct ContactProperties {
   double restitution_diameter = 4e-3;              ///< of the sphere it was measured with [m]
   std::string restitution_counterpart = "sphere";  ///< sphere (another of the same size) | plane
 
-  std::string cohesion = "none";  ///< none | JKR | capillary bridge
+  std::string cohesion = "none";  ///< none | JKR | capillary bridge | by strength
   double surface_energy = 0;      ///< JKR: work of adhesion of the two surfaces w [J/m2]
   double surface_tension = 0;     ///< of the bridge's liquid [N/m]
   double contact_angle = 0;       ///< of the liquid on both bodies [rad]

@@ -14,9 +14,9 @@ for s in sets:
     folder = os.path.join("..", "dry_" + s)
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "conditions.csv"), "w") as f:
-        f.write("condition,held_out,Seeds/Diameter [mm],Drum/Speed [rpm]\n")
+        f.write("condition,held_out,Seeds/Diameter [mm],Drum/Speed [rpm],Drum/Revolutions [1],Drum/Plateau from [1]\n")
         for d, rpm in conditions:
-            f.write("%s,%s,%s,%d\n" % (name(d, rpm), "yes" if (d, rpm) in HELD_OUT else "no", d[-1], rpm))
+            f.write("%s,%s,%s,%d,%.6g,%.6g\n" % (name(d, rpm), "yes" if (d, rpm) in HELD_OUT else "no", d[-1], rpm, 3 * rpm / 60, rpm / 60))
     with open(os.path.join(folder, "measurements.csv"), "w") as f:
         f.write("# Plain spheres in a rotating drum, simulated with LAMMPS 29 Sep 2021; see ../dry_truth/README.md. Mean of three repeats;\n"
                 "# standard uncertainty: of that mean, from the scatter of repeats pooled over the six conditions.\n"

@@ -1,0 +1,142 @@
+// What an observable model is asked about: points in SI units, candidates, uncertain inputs.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "seedflow/base/error.h"
+#include "seedflow/base/nearest_name.h"
+#include "seedflow/base/units.h"
+#include "seedflow/diagnose/observable_model.h"
+#include "seedflow/effects/catalogue.h"
+#include "seedflow/effects/contact_effects.h"
+
+namespace seedflow {
+
+namespace {
+
+std::string where(const Measurement& m) {
+  return m.line > 0 ? "measurement in line " + std::to_string(m.line) : "measurement of " + m.quantity;
+}
+
+/// Factor from a unit to the SI unit of a quantity of the same dimension.
+double factor(const std::string& unit, const std::string& si_unit, const std::string& place) {
+  Unit parsed;
+  try {
+    parsed = parse_unit(unit);
+  } catch (const InputError& error) {
+    throw InputError(place + ": " + error.what());
+  }
+  if (parsed.dimension != parse_unit(si_unit).dimension)
+    throw InputError(place + ": the unit \"" + unit + "\" does not measure the same as " + si_unit + ".");
+  if (parsed.offset != 0) throw InputError(place + ": a unit with an offset cannot be compared; use K.");
+  return parsed.factor * std::pow(10.0, parsed.exponent);
+}
+
+const Observable& find_observable(const Observer& observer, const Measurement& m) {
+  std::vector<std::string> names;
+  for (const Observable& o : observer.observables) {
+    if (o.name == m.quantity) return o;
+    names.push_back(o.name);
+  }
+  throw InputError(where(m) + ": the experiment produces no quantity \"" + m.quantity + "\". " +
+                   suggestion(m.quantity, names, "quantity"));
+}
+
+}  // namespace
+
+void ObservableModel::read_points() {
+  const std::size_t n = problem.conditions.size();
+  wanted.resize(n);
+  point_index.resize(n);
+  std::map<std::pair<int, std::string>, int> series;
+  std::set<std::tuple<int, std::string, double>> seen;
+  for (const Measurement& m : problem.measurements) {
+    const auto found = std::find_if(problem.conditions.begin(), problem.conditions.end(),
+                                    [&](const Condition& c) { return c.name == m.condition; });
+    if (found == problem.conditions.end()) {
+      std::vector<std::string> names;
+      for (const Condition& c : problem.conditions) names.push_back(c.name);
+      throw InputError(where(m) + ": there is no condition \"" + m.condition + "\". " +
+                       suggestion(m.condition, names, "condition"));
+    }
+    const Observable& about = find_observable(observer, m);
+    if (m.unit.empty()) throw InputError(where(m) + ": " + m.quantity + " has no unit.");
+    const double scale = factor(m.unit, about.unit, where(m) + ", " + m.quantity);
+    DataPoint point;
+    point.condition = static_cast<int>(found - problem.conditions.begin());
+    point.quantity = m.quantity;
+    point.unit_scale = scale;
+    point.value = scale * m.value;
+    point.sigma = scale * m.standard_uncertainty;
+    point.correlated_sigma = scale * m.correlated_uncertainty;
+    point.coordinate = std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(m.value)) throw InputError(where(m) + ": the value is not a finite number.");
+    if (!(m.standard_uncertainty > 0) || !std::isfinite(m.standard_uncertainty))
+      throw InputError(where(m) + ": the standard uncertainty must be positive and finite.");
+    if (!about.coordinate.empty()) {
+      if (!std::isfinite(m.coordinate) || m.coordinate_unit.empty())
+        throw InputError(where(m) + ": " + m.quantity + " needs its " + about.coordinate +
+                         " as coordinate, in " + about.coordinate_unit + ".");
+      const double c = factor(m.coordinate_unit, about.coordinate_unit, where(m) + ", coordinate");
+      point.coordinate = c * m.coordinate;
+      point.correlation_length = c * m.correlation_length;
+    } else if (std::isfinite(m.coordinate)) {
+      throw InputError(where(m) + ": " + m.quantity + " has no coordinate; leave it and its unit empty.");
+    }
+    point.series =
+        series.try_emplace({point.condition, m.quantity}, static_cast<int>(series.size())).first->second;
+    point_index[point.condition].push_back(data.size());
+    wanted[point.condition].push_back({m.quantity, std::isfinite(point.coordinate) ? point.coordinate : 0});
+    data.push_back(point);
+  }
+  series_count = static_cast<int>(series.size());
+  for (std::size_t c = 0; c < n; ++c)
+    if (wanted[c].empty())
+      throw InputError("nothing was measured under the condition \"" + problem.conditions[c].name +
+                       "\". Remove it or add its measurements.");
+}
+
+void ObservableModel::choose_candidates() {
+  all_candidates = problem.candidates;
+  if (all_candidates.empty()) {
+    std::vector<std::string> names;
+    // One realisation of a random effect is no signature; it can still be asked for by name.
+    for (const EffectDefinition& effect : effect_catalogue())
+      if (!effect.record.random) names.push_back(effect.record.name);
+    for (const EffectRecord& record : contact_effect_records()) names.push_back(record.name);
+    for (const std::string& name : names) {
+      const std::string path = "Effects/" + name + "/Strength";
+      if (name == "Inferred law" || !has_entry(path)) continue;
+      if (base_value(path, 0) == 0) all_candidates.push_back({name, {{path, 0, 1}}});
+    }
+  }
+  for (const Candidate& candidate : all_candidates)
+    for (const Candidate::Entry& entry : candidate.entries) base_value(entry.path, 0);
+  if (all_candidates.empty())
+    throw InputError("There is no candidate: every effect of the catalogue is on in the base model.");
+}
+
+void ObservableModel::choose_nuisances() {
+  all_nuisances = problem.nuisances;
+  if (all_nuisances.empty())
+    for (const UsualUncertainty& u : observer.uncertainties)
+      all_nuisances.push_back({u.name, u.path, u.standard_deviation, u.relative, u.each_condition});
+  const std::size_t n = problem.conditions.size();
+  for (std::size_t k = 0; k < all_nuisances.size(); ++k) {
+    const Nuisance& nuisance = all_nuisances[k];
+    if (!(nuisance.standard_deviation > 0) || !std::isfinite(nuisance.standard_deviation))
+      throw InputError("The uncertainty of \"" + nuisance.path + "\" must be positive.");
+    std::map<double, std::size_t> group;
+    for (std::size_t c = 0; c < n; ++c) {
+      const double value = base_value(nuisance.path, static_cast<int>(c));
+      const double key = nuisance.each_condition ? static_cast<double>(c) : value;
+      const auto [found, fresh] = group.try_emplace(key, errors.size());
+      if (fresh) errors.push_back({static_cast<int>(k), std::vector<bool>(n, false)});
+      errors[found->second].applies[c] = true;
+    }
+  }
+}
+
+}  // namespace seedflow
