@@ -255,7 +255,7 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   if (model.out_of_budget())
     answer.remarks.push_back("The budget of " + std::to_string(problem.budget.runs) +
                              " runs was used up: explanations whose runs it did not allow were left out.");
-  model.allow(model.runs() + for_winner);
+  model.allow(std::max(problem.budget.runs, model.runs() + for_winner));
 
   // Add and show.
   answer.before = as_vector(base);
