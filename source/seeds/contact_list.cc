@@ -60,16 +60,15 @@ void PairList::find_touching(Segment& segment, const ContactBodies& bodies) {
   int end = segment.touching_begin;
   for (int k = segment.begin, g = segment.first_group; k < segment.end; k += lane_width, ++g) {
     const int *const a = &first[k], *const b = &second[k];
+    // First sub-spheres follow each other in memory, second ones do not.
     if (k + 4 * lane_width <= n_listed())
-      for (int l = 3 * lane_width; l < 4 * lane_width; ++l) {
-        __builtin_prefetch(records + 2 * a[l]);
-        __builtin_prefetch(records + 2 * b[l]);
-      }
-    const Lanes dx = gather<2>(records, a, 0) - gather<2>(records, b, 0),
-                dy = gather<2>(records, a, 1) - gather<2>(records, b, 1),
-                dz = gather<2>(records, a, 2) - gather<2>(records, b, 2),
-                close = gather<2>(records, a, 3) + gather<2>(records, b, 3) + segment.reach;
-    unsigned bits = mask_bits(dx * dx + dy * dy + dz * dz < close * close);
+      for (int l = 3 * lane_width; l < 4 * lane_width; ++l) __builtin_prefetch(records + 2 * b[l]);
+    const CacheLine *of_a[lane_width], *of_b[lane_width];
+    for (int l = 0; l < lane_width; ++l) of_a[l] = records + 2 * a[l], of_b[l] = records + 2 * b[l];
+    Lanes d[4];
+    load_differences(of_a, of_b, d);
+    const Lanes close = d[3] + segment.reach;
+    unsigned bits = mask_bits(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < close * close);
     if (k + lane_width > segment.end) bits &= (1u << (segment.end - k)) - 1;
     for (unsigned changed = bits ^ near[g]; changed; changed &= changed - 1) {
       const int l = __builtin_ctz(changed);

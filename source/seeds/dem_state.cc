@@ -114,6 +114,18 @@ SeedState Dem::seed_state(int seed) const {
   return r;
 }
 
+Vec3 Dem::contact_force(int seed) const {
+  if (!forces_known) return {};
+  const SeedStore& s = store[slots[seed].store];
+  const int lane = slots[seed].slot % lane_width, b = slots[seed].slot / lane_width;
+  if (s.rigid) return s.body_force[b].force.get(lane);
+  // The forces of bonds cancel within the seed.
+  Vec3 sum;
+  for (int i = 0; i < s.n_spheres(); ++i)
+    sum += s.force[static_cast<std::size_t>(b) * s.n_spheres() + i].force.get(lane);
+  return sum;
+}
+
 DemEnergies Dem::energies() const {
   DemEnergies e;
   for (std::size_t t = 0; t < store.size(); ++t) {

@@ -21,7 +21,6 @@ void WallList::set(const std::vector<WallCandidate>& candidates, const std::vect
                    const ContactBodies& bodies, const ContactHistory& history) {
   segments.clear(), candidate.clear(), touching.clear(), point.clear(), seat.clear();
   memory.clear();
-  first_fault = {};
   std::map<std::pair<int, int>, int> seat_of;
   for (int l = 0; l < static_cast<int>(laws.size()); ++l) {
     Segment segment{l, static_cast<int>(candidate.size()), 0, 0};
@@ -79,6 +78,12 @@ void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
       if (p.distance < 0 && first_fault.sphere < 0) first_fault = {bodies.sphere[c.entry], c.wall};
       const auto same =
           std::find_if(old, last, [&](const Touching& t) { return t.feature == p.feature && t.line >= 0; });
+      // A two-sided surface pushes to where the centre is: deep in it and turned around is through it.
+      if (same != last && p.distance < 0.5 * sphere.radius() && first_fault.sphere < 0) {
+        const CacheLine& b = point_before[same - before.begin()];
+        if (p.normal.x * b[0] + p.normal.y * b[1] + p.normal.z * b[2] < 0)
+          first_fault = {bodies.sphere[c.entry], c.wall};
+      }
       touching.push_back({k, p.feature, same != last ? std::exchange(same->line, -1) : -1});
       point.push_back(
           {{p.normal.x, p.normal.y, p.normal.z, p.distance, p.velocity.x, p.velocity.y, p.velocity.z, 0}});

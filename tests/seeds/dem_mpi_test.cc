@@ -83,6 +83,30 @@ TEST(DemMpi, SameBitsAfterTenThousandSteps) {
   EXPECT_GT(shared.contact_network().size(), 10u);
 }
 
+// A bed of plain spheres and clumps at rest: the whole contact network after ten thousand steps.
+TEST(DemMpi, ContactNetworkOfABed) {
+  const auto bed = [](MPI_Comm communicator) {
+    DemParameters p;
+    p.time_step = 4e-6;
+    Dem dem(p, communicator);
+    const int m = dem.add_material({});
+    dem.add_template(test::single_sphere(), m, true);
+    dem.add_template(test::lattice_seed(4e-3, 1.2e-3), m, true);
+    dem.add_box({0, 0, 0}, {0.034, 0.034, 0.05}, m);
+    for (int k = 0; k < 384; ++k)
+      dem.add_seed(k % 7 == 0,
+                   {0.0022 + 0.00415 * (k % 8) + 5e-5 * (k / 64 % 2),
+                    0.0022 + 0.00415 * (k / 8 % 8) + 3e-5 * (k % 3), 0.0021 + 0.0041 * (k / 64)},
+                   {}, {0.02 * (k % 5 - 2), 0.02 * (k % 3 - 1), -0.1});
+    dem.advance(0.04);
+    return dem;
+  };
+  const Dem shared = bed(world()), alone = bed(MPI_COMM_SELF);
+  EXPECT_EQ(shared.n_substeps(), 10000);
+  EXPECT_GE(alone.contact_network().size(), 500u);
+  expect_same(shared, alone);
+}
+
 // Drag, added mass and their impulses, advanced in short coupling steps.
 TEST(DemMpi, LoadsAndTheirImpulses) {
   Dem shared = heap(world()), alone = heap(MPI_COMM_SELF);

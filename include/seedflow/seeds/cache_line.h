@@ -50,12 +50,29 @@ SEEDFLOW_INLINE void to_records(const Lanes (&column)[8], CacheLine (&record)[la
   for (int l = 0; l < 8; ++l) *reinterpret_cast<Lanes*>(record[l].value) = row[l];
 }
 
-/// Number `component` of records[index[l] * stride] in lane l.
-template <int stride>
-SEEDFLOW_INLINE Lanes gather(const CacheLine* records, const int* index, int component) {
-  const __m256i line = _mm256_mullo_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)),
-                                          _mm256_set1_epi32(8 * stride));
-  return (Lanes)_mm512_i32gather_pd(line, records->value + component, 8);
+/// Columns of rows of four.
+SEEDFLOW_INLINE void transpose(const __m256d (&row)[8], Lanes (&column)[4]) {
+  __m512d two[4];
+  for (int k = 0; k < 4; ++k) {
+    const int first = (k & 1) + 2 * (k & 2);  // rows 0|2, 1|3, 4|6, 5|7
+    two[k] = _mm512_insertf64x4(_mm512_castpd256_pd512(row[first]), row[first + 2], 1);
+  }
+  const __m512d even_a = _mm512_unpacklo_pd(two[0], two[1]), odd_a = _mm512_unpackhi_pd(two[0], two[1]),
+                even_b = _mm512_unpacklo_pd(two[2], two[3]), odd_b = _mm512_unpackhi_pd(two[2], two[3]);
+  column[0] = (Lanes)_mm512_shuffle_f64x2(even_a, even_b, 0x88);
+  column[1] = (Lanes)_mm512_shuffle_f64x2(odd_a, odd_b, 0x88);
+  column[2] = (Lanes)_mm512_shuffle_f64x2(even_a, even_b, 0xdd);
+  column[3] = (Lanes)_mm512_shuffle_f64x2(odd_a, odd_b, 0xdd);
+}
+
+/// Of pairs of records: first - second of the numbers 0 to 2, first + second of number 3.
+SEEDFLOW_INLINE void load_differences(const CacheLine* const (&first)[lane_width],
+                                      const CacheLine* const (&second)[lane_width], Lanes (&column)[4]) {
+  const __m256d sign = _mm256_setr_pd(-1, -1, -1, 1);
+  __m256d row[8];
+  for (int l = 0; l < 8; ++l)
+    row[l] = _mm256_fmadd_pd(_mm256_load_pd(second[l]->value), sign, _mm256_load_pd(first[l]->value));
+  transpose(row, column);
 }
 
 /// One bit per lane.
@@ -75,11 +92,12 @@ SEEDFLOW_INLINE void to_records(const Lanes (&column)[8], CacheLine (&record)[la
     for (int c = 0; c < 8; ++c) record[l].value[c] = column[c][l];
 }
 
-template <int stride>
-SEEDFLOW_INLINE Lanes gather(const CacheLine* records, const int* index, int component) {
-  Lanes r;
-  for (int l = 0; l < lane_width; ++l) r[l] = records[index[l] * stride].value[component];
-  return r;
+SEEDFLOW_INLINE void load_differences(const CacheLine* const (&first)[lane_width],
+                                      const CacheLine* const (&second)[lane_width], Lanes (&column)[4]) {
+  for (int l = 0; l < lane_width; ++l) {
+    for (int c = 0; c < 3; ++c) column[c][l] = first[l]->value[c] - second[l]->value[c];
+    column[3][l] = first[l]->value[3] + second[l]->value[3];
+  }
 }
 
 SEEDFLOW_INLINE unsigned mask_bits(LaneMask mask) {

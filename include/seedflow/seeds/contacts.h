@@ -49,7 +49,7 @@ class Contacts {
   /// All entries are to be placed. Returns what this rank listed.
   ListSizes search(const Surroundings& now, double skin, bool normalise, const ContactHistory& history);
   bool is_listed() const { return listed_skin > 0; }
-  void forget() { listed_skin = 0; }
+  void forget() { listed_skin = 0, on_walls.forget_fault(); }
   double skin() const { return listed_skin; }
 
   // Between the stores' blocks (numbered through) and the entries.

@@ -141,6 +141,8 @@ class Dem {
   const std::vector<double>& radii() const { return sphere_radius; }
   const std::vector<double>& masses() const { return sphere_mass; }
   SeedState seed_state(int seed) const;
+  /// Sum of the forces of all contacts on a seed at the end of the last advance() [N]; zero before the first.
+  Vec3 contact_force(int seed) const;
   DemEnergies energies() const;
   Vec3 momentum() const;
   double max_speed() const;

@@ -64,7 +64,12 @@ struct MaterialTable {
   ContactProperties& properties(const std::string& a, const std::string& b);
   /// Adds the materials, with reduced moduli, and sets the known pairs. The Dem must have no materials yet.
   void apply(Dem& dem) const;
-  /// One sentence for summary and report if the moduli are reduced, else "".
+  /// Largest overlap over radius when two equal spheres of a material, of any size, meet at this relative
+  /// speed [m/s] without damping,
+  ///   (delta/R)^(5/2) = 5 sqrt(2) pi/8 rho v^2 (1 - nu)/G,
+  /// from m* v^2/2 = 8/15 E* sqrt(R*) delta^(5/2) with the reduced modulus.
+  double impact_overlap(int material, double speed) const;
+  /// What a reduced modulus does, with the overlap of an impact at 1 m/s, for summary and report; else "".
   std::string notice() const;
 
  private:

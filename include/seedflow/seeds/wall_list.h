@@ -12,7 +12,7 @@ struct WallCandidate {
   int sphere, wall;
 };
 
-/// A sub-sphere whose centre is behind a wall.
+/// A sub-sphere whose centre is behind a wall, or has come to the other side of a thin one.
 struct WallFault {
   int sphere = -1, wall = -1;
 };
@@ -35,8 +35,9 @@ class WallList {
 
   /// Adds factor x the force on the seeds of each block by each wall to sum[block * n_walls + wall].
   void add_wall_forces(double factor, int n_walls, std::vector<Vec3>& sum) const;
-  /// The first sub-sphere found behind a wall since set(), or -1.
+  /// The first sub-sphere found behind a wall since forget_fault(), or -1. New lists do not forget it.
   const WallFault& fault() const { return first_fault; }
+  void forget_fault() { first_fault = {}; }
   std::size_t bytes() const;
 
  private:
