@@ -60,6 +60,9 @@ void BodyLoads::evaluate(const Bodies& bodies, const AirAtBodies& seen, const De
   force.assign(n, BodyForce());
   hydrostatic.assign(n, Vec3());
   const double hydrostatic_strength = effects["Pressure gradient"].settings().strength;
+  // The search costs more than all else where there are many seeds and walls of triangles.
+  const auto on = [&](const char* name) { return effects[name].settings().strength > 0; };
+  const bool walls_matter = on("Plane wall drag") || on("Wall lift") || on("Inferred law");
 
   for (std::size_t b = 0; b < n; ++b) {
     const Body& body = bodies[b];
@@ -84,7 +87,7 @@ void BodyLoads::evaluate(const Bodies& bodies, const AirAtBodies& seen, const De
     flow.viscosity = air.viscosity;
     flow.gravity = gravity;
     flow.tube_diameter = tube;
-    nearest_wall(dem.walls(), flow.position, time, flow);
+    if (walls_matter) nearest_wall(dem.walls(), flow.position, time, flow);
 
     double amplification = 1.0;  // undisturbed over averaged slip
     Vec3 induced;
