@@ -147,7 +147,14 @@ Vec3 SuctionStep::step(Dem& dem, double dt) {
 Vec3 SuctionStep::advance(Dem& dem, double duration) {
   const long n = std::max(1L, std::lround(std::ceil(duration / parameters.air_step - 1e-9)));
   Vec3 impulse;
-  for (long i = 0; i < n; ++i) impulse += step(dem, duration / static_cast<double>(n));
+  mean_load.assign(dem.n_seeds(), SeedLoad());
+  for (long i = 0; i < n; ++i) {
+    impulse += step(dem, duration / static_cast<double>(n));
+    for (std::size_t s = 0; s < mean_load.size(); ++s) {
+      mean_load[s].pressure += seed_load[s].pressure / static_cast<double>(n);
+      mean_load[s].drag += seed_load[s].drag / static_cast<double>(n);
+    }
+  }
   return impulse;
 }
 

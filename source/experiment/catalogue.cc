@@ -1,5 +1,6 @@
 #include "seedflow/base/parameters.h"
 #include "seedflow/experiment/experiment.h"
+#include "seedflow/experiment/metering.h"
 #include "seedflow/experiment/oblique_impact.h"
 #include "seedflow/experiment/orifice.h"
 #include "seedflow/experiment/repose_angle.h"
@@ -35,7 +36,11 @@ std::vector<Experiment> experiment_catalogue() {
       {"rotating drum", "two colours of seeds mix in a turning drum", run_rotating_drum,
        describe_rotating_drum, rotating_drum_observer},
       {"rotating drum study", "mixing index and surface for the paper's seed models and speeds",
-       run_rotating_drum_study, describe_rotating_drum}};
+       run_rotating_drum_study, describe_rotating_drum},
+      {"metering", "an air-suction disc takes seeds from a chamber and lays them", run_metering,
+       describe_metering},
+      {"metering map", "its seeding quality over vacuum, speed and hole diameter", run_metering_map,
+       describe_metering}};
 }
 
 void declare_experiment_name(Parameters& parameters, std::string& name) {

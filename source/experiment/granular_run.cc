@@ -82,9 +82,13 @@ void GranularRun::advance() {
   for (const double m : seeds.masses()) mass += m;
   const Vec3 momentum = seeds.momentum(), given = walls_gave();
   const double dt = parameters.series_interval;
-  seeds.advance(dt);
-  momentum_error +=
-      (seeds.momentum() - momentum) - (walls_gave() - given) - mass * dt * parameters.dem.gravity;
+  Vec3 from_outside;
+  if (start_time >= 0 && scene.advance)
+    from_outside = scene.advance(seeds, dt);
+  else
+    seeds.advance(dt);
+  momentum_error += (seeds.momentum() - momentum) - (walls_gave() - given) - from_outside -
+                    mass * dt * parameters.dem.gravity;
   weight_impulse += mass * dt * norm(parameters.dem.gravity);
 }
 

@@ -84,14 +84,7 @@ RunOptions GranularStudy::options_of(const StudyCase& one) const {
   const std::filesystem::path folder = options.output;
   RunOptions own = options;
   own.output = (folder / "runs" / one.folder_name).string();
-  // An entry may be set once: what the case sets takes the place of what the user set for the study.
-  const auto set = [&own](const std::string& path, const std::string& value) {
-    own.overrides.erase(
-        std::remove_if(own.overrides.begin(), own.overrides.end(),
-                       [&](const std::string& text) { return path_of(scan_override(text)) == path; }),
-        own.overrides.end());
-    own.overrides.push_back(path + "=" + value);
-  };
+  const auto set = [&own](const std::string& path, const std::string& value) { set_entry(own, path, value); };
   set("Experiment", experiment);
   set("Seeds/Sub-spheres", std::to_string(one.n_spheres));
   set("Seeds/Rigid", one.motion == "rigid" ? "true" : "false");
@@ -112,14 +105,36 @@ RunOptions GranularStudy::options_of(const StudyCase& one) const {
   return own;
 }
 
+void set_entry(RunOptions& options, const std::string& path, const std::string& value) {
+  options.overrides.erase(
+      std::remove_if(options.overrides.begin(), options.overrides.end(),
+                     [&](const std::string& text) { return path_of(scan_override(text)) == path; }),
+      options.overrides.end());
+  options.overrides.push_back(path + "=" + value);
+}
+
+void run_unless_finished(RunOptions options, int (*run)(const RunOptions&),
+                         std::string (*text_of)(const RunOptions&)) {
+  const std::filesystem::path folder = options.output;
+  bool finished = false, begun = false;
+  together(MPI_COMM_WORLD, [&] {
+    const bool same =
+        std::filesystem::exists(folder / "used.prm") && read_file(folder / "used.prm") == text_of(options);
+    finished = same && std::filesystem::exists(folder / "summary.json");
+    begun = same && checkpoint_exists(folder / "checkpoint");
+  });
+  if (finished) return;
+  options.resume = begun;
+  run(options);
+}
+
 bool GranularStudy::carry_out() {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (!options.dry_run) prepare_output_folder(options.output);
   int number = 0;
   for (const StudyCase& one : all_cases) {
-    RunOptions own = options_of(one);
-    const std::filesystem::path folder = own.output;
+    const RunOptions own = options_of(one);
     ++number;
     if (rank == 0)
       std::cout << "run " << number << " of " << all_cases.size() << ": " << one.folder_name << std::endl;
@@ -127,16 +142,7 @@ bool GranularStudy::carry_out() {
       run(own);
       continue;
     }
-    bool finished = false, begun = false;
-    together(MPI_COMM_WORLD, [&] {
-      const bool same =
-          std::filesystem::exists(folder / "used.prm") && read_file(folder / "used.prm") == text_of(own);
-      finished = same && std::filesystem::exists(folder / "summary.json");
-      begun = same && checkpoint_exists(folder / "checkpoint");
-    });
-    if (finished) continue;
-    own.resume = begun;
-    run(own);
+    run_unless_finished(own, run, text_of);
   }
   return !options.dry_run;
 }

@@ -64,11 +64,11 @@ std::string complaint(const std::string& lines) {
 TEST(DeviceGeometry, ImpossibleGeometryIsNamed) {
   EXPECT_EQ(complaint(""), "");
   EXPECT_NE(complaint("set Pitch radius = 120 mm").find("Pitch radius"), std::string::npos);
-  EXPECT_NE(complaint("set Hole diameter = 9 mm").find("overlap"), std::string::npos);
+  EXPECT_NE(complaint("set Hole diameter = 9.2 mm").find("overlap"), std::string::npos);
   EXPECT_NE(complaint("set Holes = 600").find("overlap"), std::string::npos);
   EXPECT_NE(complaint("set Chamfer = 2.5 mm\nset Holes = 20").find("as deep as the disc"), std::string::npos);
   EXPECT_NE(complaint("set Vacuum to = -140 deg").find("arc"), std::string::npos);
-  EXPECT_NE(complaint("set Vacuum inner radius = 90 mm").find("vacuum chamber"), std::string::npos);
+  EXPECT_NE(complaint("set Vacuum inner radius = 89.5 mm").find("vacuum chamber"), std::string::npos);
   EXPECT_NE(complaint("set Chamber outer radius = 101 mm").find("beyond the disc"), std::string::npos);
   EXPECT_NE(complaint("set Drilled = 61").find("fewer places"), std::string::npos);
 }

@@ -23,14 +23,14 @@ struct DeviceGeometry {
   double disc_radius = 100e-3, thickness = 2e-3;  ///< [m]
   int holes = 60;                                 ///< places on the circle
   int drilled = 0;                                ///< how many of them exist, from hole 0 on; 0: all
-  double pitch_radius = 85e-3;                    ///< of the circle of holes [m]
+  double pitch_radius = 90e-3;                    ///< of the circle of holes [m]
   double hole_diameter = 2e-3;                    ///< [m]
   double chamfer = 0.3e-3;                        ///< of the holes on the front, as wide as deep [m]; 0: none
   double first_angle = 0;                         ///< of hole 0 before the disc turns [rad]
-  double chamber_inner_radius = 50e-3, chamber_outer_radius = 98e-3, chamber_depth = 16e-3;  ///< [m]
+  double chamber_inner_radius = 50e-3, chamber_outer_radius = 98e-3, chamber_depth = 20e-3;  ///< [m]
   double vacuum_from = -130 * 3.14159265358979323846 / 180;                                  ///< [rad]
   double vacuum_to = 180 * 3.14159265358979323846 / 180;                                     ///< [rad]
-  double vacuum_inner_radius = 75e-3, vacuum_outer_radius = 95e-3, vacuum_depth = 15e-3;     ///< [m]
+  double vacuum_inner_radius = 82e-3, vacuum_outer_radius = 98e-3, vacuum_depth = 15e-3;     ///< [m]
 
   /// Section "Device". The object must not move until Parameters::read.
   void declare(Parameters& parameters);

@@ -18,7 +18,7 @@ struct HoleState {
   double flow = 0;      ///< [m3/s]
 };
 
-/// What the air does to one seed, held over the last step.
+/// What the air does to one seed, mean over the last advance().
 struct SeedLoad {
   Vec3 pressure, drag;  ///< [N]; drag includes all effects but the suction's pressure
 };
@@ -47,7 +47,7 @@ class SuctionStep {
   Vec3 advance(Dem& dem, double duration);
 
   const std::vector<HoleState>& holes() const { return hole; }
-  const std::vector<SeedLoad>& seed_loads() const { return seed_load; }
+  const std::vector<SeedLoad>& seed_loads() const { return mean_load; }
   /// Of the vacuum chamber: drop [Pa] and flow through fan and line [m3/s].
   const SuctionBalance& chamber() const { return balance; }
   double leak_flow() const { return leak; }                 ///< [m3/s]
@@ -75,7 +75,7 @@ class SuctionStep {
   std::optional<Bodies> bodies;
   std::vector<HoleState> hole;
   std::vector<Vec3> mouth;  ///< [hole] lab frame [m]
-  std::vector<SeedLoad> seed_load;
+  std::vector<SeedLoad> seed_load, mean_load;
   SuctionBalance balance;
   double leak = 0, flow_error = 0, volume = 0, energy = 0;
 };

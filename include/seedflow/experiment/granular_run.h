@@ -30,6 +30,9 @@ struct GranularScene {
   std::vector<FillingRoom> rooms;
   /// Begins the experiment at `start` [s]: opens gates, sets the drum turning. Called again after a resume.
   std::function<void(Dem&, double start)> begin;
+  /// Advances the seeds by `duration` [s] after the beginning, with loads from outside on them, in place of
+  /// Dem::advance; returns the impulse of these loads [N s].
+  std::function<Vec3(Dem&, double duration)> advance = nullptr;
   /// After every series interval, `time` after the beginning [s]; may remove seeds.
   std::function<void(Dem&, double time)> after_interval = nullptr;
   std::function<bool(const Dem&, double time)> finished = nullptr;  ///< ends the run early

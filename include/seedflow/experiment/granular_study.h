@@ -71,6 +71,13 @@ class StudyTable {
   std::vector<std::string> observables;
 };
 
+/// One run of a study: skipped if a finished one with the same parameters is there, continued from its
+/// checkpoint if it was begun. Collective over MPI_COMM_WORLD.
+void run_unless_finished(RunOptions options, int (*run)(const RunOptions&),
+                         std::string (*text_of)(const RunOptions&));
+/// An entry of one run; takes the place of what the user set for the study, as an entry may be set once.
+void set_entry(RunOptions& options, const std::string& path, const std::string& value);
+
 /// Carries out all runs of a study, one after the other, each in <output>/runs/<name>. A run whose
 /// summary.json is there, made with the same parameters, is not repeated; a run with a checkpoint is
 /// continued.

@@ -1,0 +1,189 @@
+// Experiment "metering" as a user gets it: run, summary, files.
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+#include "seedflow/experiment/granular_report.h"
+#include "seedflow/experiment/metering_map.h"
+#include "seedflow/experiment/metering_report.h"
+#include "seedflow/output/vtu.h"
+#include "seedflow/seeds/wall_polygons.h"
+
+namespace seedflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_track(const std::vector<SeedSample>& track, const fs::path& file) {
+  Series s{{{"time", "s"},
+            {"x", "m"},
+            {"y", "m"},
+            {"z", "m"},
+            {"velocity", "m/s"},
+            {"drag", "N"},
+            {"pressure force", "N"},
+            {"contact force", "N"},
+            {"hole"}},
+           std::vector<std::vector<double>>(9)};
+  for (const SeedSample& p : track) {
+    const double row[] = {p.time, p.x, p.y, p.z, p.speed, p.drag, p.pressure, p.contact, 1.0 * p.hole};
+    for (int c = 0; c < 9; ++c) s.values[c].push_back(row[c]);
+  }
+  write_series(file, s);
+}
+
+void observe_indices(const std::string& where, const SeedingIndices& i, Summary& summary) {
+  summary.observe(where + "_n", i.n, "1");
+  const auto count = [&](const Share& s) { return std::round(s.value * i.n); };
+  summary.observe(where + "_good_n", count(i.quality), "1");
+  summary.observe(where + "_multiple_n", count(i.multiple), "1");
+  summary.observe(where + "_miss_n", count(i.miss), "1");
+  if (i.n == 0) return;
+  const auto share = [&](const std::string& name, const Share& s) {
+    summary.observe(where + "_" + name, 100 * s.value, "%");
+    summary.observe(where + "_" + name + "_low", 100 * s.low, "%");
+    summary.observe(where + "_" + name + "_high", 100 * s.high, "%");
+  };
+  share("quality", i.quality);
+  share("multiple", i.multiple);
+  share("miss", i.miss);
+}
+
+/// Mean force of the vacuum on seeds that are carried alone behind the pool [N].
+double mean_holding_force(const Metering& m, const SeedingRecord& record) {
+  double sum = 0;
+  int n = 0;
+  for (const Passage& p : record.passages()) {
+    if (p.cleaned != 1 || p.seeds.size() != 1) continue;
+    for (const SeedSample& s : record.track(static_cast<int>(p.seeds[0])))
+      if (s.hole == p.hole && std::atan2(s.y, s.x) > m.stations().carried) sum += s.pressure, ++n;
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+}  // namespace
+
+std::vector<int> counts(const SeedingRecord& record, int Passage::*station) {
+  std::vector<int> result;
+  for (const Passage& p : record.passages())
+    if (p.*station >= 0) result.push_back(p.*station);
+  return result;
+}
+
+NamedSeeds named_seeds(const SeedingRecord& record) {
+  NamedSeeds named;
+  for (const Passage& p : record.passages()) {
+    if (named.a < 0 && p.carried == 1 && p.cleaned == 1) named.a = p.seeds[0];
+    if (named.b < 0 && p.carried > 1 && p.cleaned >= 0) {
+      named.b = p.seeds[0];
+      for (const long label : p.seeds)  // the one that stays
+        if (record.track(static_cast<int>(label)).back().hole == p.hole) named.b = label;
+    }
+  }
+  return named;
+}
+
+void add_seeding(const Metering& m, const Metering::Gathered& gathered, double time, Summary& summary) {
+  const SeedingRecord& record = gathered.record;
+  observe_indices("before_blade", indices_of_counts(counts(record, &Passage::carried)), summary);
+  observe_indices("behind_blade", indices_of_counts(counts(record, &Passage::cleaned)), summary);
+  observe_indices("unloading", indices_of_counts(counts(record, &Passage::unloaded)), summary);
+  const SeedingIndices ground =
+      indices_of_spacings(spacings(record.landing_times(), m.forward_speed), m.target_spacing());
+  observe_indices("ground", ground, summary);
+  if (ground.n > 0) summary.observe("ground_precision", 100 * ground.precision, "%");
+  summary.observe("target_spacing", m.target_spacing(), "m");
+  summary.observe("holes_per_second", m.holes_per_second(), "1/s");
+  summary.observe("seeds_laid", static_cast<double>(record.landing_times().size()), "1");
+  const double n = static_cast<double>(std::max(1L, gathered.intervals));
+  summary.observe("vacuum", gathered.suction_sum / n, "Pa");
+  summary.observe("air_flow", gathered.air.air_drawn() / time, "m3/s");
+  summary.observe("air_power", gathered.air.work() / time, "W");
+  summary.observe("holding_force", mean_holding_force(m, record), "N");
+  const CoveredHole seat(m.device.hole_radius(), m.device.chamfer, 0.5 * m.granular.model.diameter);
+  summary.observe("pressure_times_hole_area", gathered.suction_sum / n * m.device.hole_area(), "N");
+  summary.observe("pressure_times_seat_area",
+                  gathered.suction_sum / n * M_PI * seat.seat_radius * seat.seat_radius, "N");
+  // Round-off of a sum over the holes.
+  summary.conserve("air of holes and leak against the fan's", gathered.air.largest_flow_error(), 1e-10);
+}
+
+void write_seeding_files(const Metering& m, const Metering::Gathered& gathered, const GranularRun& run,
+                         const fs::path& folder) {
+  const SeedingRecord& record = gathered.record;
+  std::ostringstream holes;
+  holes << "hole,begun [s],before the blade,behind the blade,at unloading\n";
+  for (const Passage& p : record.passages())
+    holes << p.hole << "," << p.begun << "," << p.carried << "," << p.cleaned << "," << p.unloaded << "\n";
+  write_file_atomically(folder / "holes.csv", holes.str());
+  write_series(folder / "landings.csv", {{{"time", "s"}}, {record.landing_times()}});
+  const NamedSeeds seeds = named_seeds(record);
+  if (seeds.a >= 0) write_track(record.track(static_cast<int>(seeds.a)), folder / "seed_A.csv");
+  if (seeds.b >= 0) write_track(record.track(static_cast<int>(seeds.b)), folder / "seed_B.csv");
+  PolygonSurface all;
+  const double edge = m.device.disc_radius + 5 * m.granular.model.diameter;
+  for (const Wall& wall : run.dem().walls()) {
+    if (!wall.active || wall.name == "housing") continue;
+    const PolygonSurface one =
+        wall_polygons(wall, run.dem().time(), {-edge, m.parts.floor, -edge}, {edge, edge, edge});
+    const int first = static_cast<int>(all.vertex.size());
+    all.vertex.insert(all.vertex.end(), one.vertex.begin(), one.vertex.end());
+    for (std::vector<int> polygon : one.polygon) {
+      for (int& corner : polygon) corner += first;
+      all.polygon.push_back(polygon);
+    }
+  }
+  Polygons(all.vertex, all.polygon).write(folder / "walls.vtp");
+}
+
+MeteringInput::MeteringInput(const RunOptions& options) {
+  experiment.granular.materials = MaterialTable::named_in(options.prm, options.overrides);
+}
+
+void MeteringInput::declare(Parameters& p) {
+  declare_experiment_name(p, name);
+  experiment.declare(p);
+  map.declare(p);
+}
+
+int run_metering(const RunOptions& options) {
+  MeteringInput input(options);
+  Parameters parameters;
+  input.declare(parameters);
+  parameters.read(options.prm, options.overrides);
+  Metering& metering = input.experiment;
+  metering.check(parameters);
+  Metering::Gathered gathered(metering, metering.effects);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const GranularScene scene =
+      metering.scene(gathered, rank == 0 && !options.dry_run ? fs::path(options.output) : fs::path());
+  GranularJob job(parameters, options, metering.granular, scene);
+  if (options.dry_run) return job.say_what_it_will_be();
+  Summary summary;
+  summary.text("experiment", "metering");
+  summary.text("air", metering.air_model);
+  job.run.carry_out(parameters, options, summary);
+  add_seeding(metering, gathered, job.run.time(), summary);
+  return job.finish(summary, [&] {
+    write_seeding_files(metering, gathered, job.run, options.output);
+    write_metering_report(metering, gathered, job.run, summary, options);
+    const SeedingIndices behind = indices_of_counts(counts(gathered.record, &Passage::cleaned));
+    std::cout << "behind the blade: " << behind.n << " holes";
+    if (behind.n > 0)
+      std::cout << ", one seed " << in_words(behind.quality) << ", more " << in_words(behind.multiple)
+                << ", none " << in_words(behind.miss);
+    std::cout << std::endl;
+  });
+}
+
+void describe_metering(std::ostream& out, const std::string& section) {
+  MeteringInput input;
+  Parameters parameters;
+  input.declare(parameters);
+  parameters.describe(out, section);
+}
+
+}  // namespace seedflow
