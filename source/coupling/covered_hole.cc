@@ -33,7 +33,8 @@ CoveredHole::Outcome CoveredHole::evaluate(const std::vector<Ball>& balls, doubl
       const Vec3 rim = seat_radius * direction[i] - Vec3{0, 0, seat_depth};
       const Vec3 away = rim - balls[k].centre;
       const double distance = norm(away), gap = std::max(distance - balls[k].radius, roughness);
-      foot[k][i] = balls[k].centre + (balls[k].radius / distance) * away;
+      // A ball that reaches over the rim (a clump that sits deeper than a ball could) is sealed off at it.
+      foot[k][i] = balls[k].centre + std::min(1.0, balls[k].radius / distance) * away;
       share[k][i] = 1 / (gap * gap * gap * gap);
       sum[i] += share[k][i];
     }

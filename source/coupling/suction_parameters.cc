@@ -65,6 +65,13 @@ void SuctionParameters::check(const Parameters& p) const {
     p.reject("Air/Step", "a seed falls into a hole within a millisecond", "use at most 0.5 ms");
 }
 
+double leak_area(const SuctionParameters& p, const DeviceGeometry& device) {
+  const double arc = device.vacuum_to - device.vacuum_from;
+  const double rim = (device.vacuum_inner_radius + device.vacuum_outer_radius) * arc +
+                     2 * (device.vacuum_outer_radius - device.vacuum_inner_radius);
+  return p.gap_coefficient * p.leak_strength * p.leak_gap * rim;
+}
+
 SuctionBalance suction_balance(const SuctionParameters& p, double area) {
   const double area_square = 2 / p.density * area * area;  // Q^2 per dp
   double lost = 0;                                         // pressure per Q^2

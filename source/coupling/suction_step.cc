@@ -39,13 +39,6 @@ SuctionStep::SuctionStep(const SuctionParameters& p, const DeviceGeometry& g, co
   law.roughness = p.seat_roughness;
 }
 
-double SuctionStep::leak_area() const {
-  const double arc = device.vacuum_to - device.vacuum_from;
-  const double rim = (device.vacuum_inner_radius + device.vacuum_outer_radius) * arc +
-                     2 * (device.vacuum_outer_radius - device.vacuum_inner_radius);
-  return parameters.gap_coefficient * parameters.leak_strength * parameters.leak_gap * rim;
-}
-
 void SuctionStep::look(const Dem& dem) {
   const Wall& wall = dem.walls()[disc];
   const Placement place = placement(wall, dem.time());
@@ -63,7 +56,8 @@ void SuctionStep::look(const Dem& dem) {
   std::vector<CoveredHole::Ball> balls;
   std::vector<int> who;
   const double near_angle = 2 * reach_in_radii * law.seat_radius / device.pitch_radius;
-  double sum = leak_area();
+  const double leaking = leak_area(parameters, device);
+  double sum = leaking;
   for (std::size_t k = 0; k < hole.size(); ++k) {
     HoleState& h = hole[k];
     h.angle = device.hole_angle(static_cast<int>(k), turned);
@@ -87,7 +81,7 @@ void SuctionStep::look(const Dem& dem) {
   }
   balance = suction_balance(parameters, sum);
   const double speed = std::sqrt(2 * balance.drop / parameters.density);
-  double through = leak = leak_area() * speed;
+  double through = leak = leaking * speed;
   for (std::size_t k = 0; k < hole.size(); ++k) through += hole[k].flow = open_area[k] * speed;
   if (balance.flow > 0) flow_error = std::max(flow_error, std::abs(through / balance.flow - 1));
   const double strength = effects["Pressure gradient"].settings().strength;

@@ -4,7 +4,9 @@
 #include <ostream>
 
 #include "seedflow/base/nearest_name.h"
+#include "seedflow/effects/contact_effects.h"
 #include "seedflow/effects/definitions.h"
+#include "seedflow/effects/device_effects.h"
 #include "seedflow/effects/drag_laws.h"
 
 namespace seedflow {
@@ -24,8 +26,8 @@ auto& find(Effects& effects, const std::string& name) {
 
 void describe(std::ostream& out, const EffectRecord& r) {
   out << r.name << "\n  " << r.summary << "\n\n  Equation:   " << r.equation << "\n  Acts as:    " << r.slot
-      << "\n  Valid for:  " << r.validity << "\n  Signature:  " << r.signature
-      << "\n  Strength:   0 to 2, 1 as published, in a fresh run " << r.standard_strength << '\n';
+      << "\n  Valid for:  " << r.validity << "\n  Signature:  " << r.signature << "\n  Strength:   0 to "
+      << (r.slot == "contact" ? 1 : 2) << ", 1 as published, in a fresh run " << r.standard_strength << '\n';
   for (const auto& n : r.numbers)
     out << "  Parameter:  " << n.name << " = " << n.published << (n.unit == "1" ? "" : " " + n.unit) << " ("
         << n.range.low << " to " << n.range.high << "): " << n.doc << '\n';
@@ -67,8 +69,11 @@ std::vector<std::string> effect_names() {
 
 void describe_effects(std::ostream& out, const std::string& name) {
   bool found = false;
-  for (const auto& definition : effect_catalogue()) {
-    const auto& r = definition.record;
+  std::vector<EffectRecord> records;
+  for (const auto& definition : effect_catalogue()) records.push_back(definition.record);
+  for (const auto& others : {contact_effect_records(), device_effect_records()})
+    records.insert(records.end(), others.begin(), others.end());
+  for (const EffectRecord& r : records) {
     if (name.empty())
       out << r.name << std::string(r.name.size() < 24 ? 24 - r.name.size() : 1, ' ') << r.summary << '\n';
     else if (r.name == name)

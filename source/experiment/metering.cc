@@ -177,13 +177,11 @@ GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& f
     for (int i = 0; i < dem.n_seeds(); ++i) {
       const int hole = carrier[i];
       const Vec3 x = dem.seed_state(i).centre;
-      const bool pool = std::atan2(x.y, x.x) < -30 * degree && x.x > parts.tube_position + parts.tube_width;
-      dem.set_group(i, dem.seed_group(i) == laid ||
-                               (x.x < parts.tube_position + 0.5 * parts.tube_width && x.y < parts.tube_top)
-                           ? laid
-                       : hole < 0 || pool                        ? in_pool
-                       : gathered.record.carried_now()[hole] > 1 ? with_others
-                                                                 : alone);
+      const bool outside = x.x < device.chamber_outer_radius * std::cos(parts.chamber_from) && hole < 0;
+      dem.set_group(i, outside || dem.seed_group(i) == laid              ? laid
+                       : hole < 0 || std::atan2(x.y, x.x) < -30 * degree ? in_pool
+                       : gathered.record.carried_now()[hole] > 1         ? with_others
+                                                                         : alone);
     }
     for (const double at : picture_at)
       if (gathered.last_time < at && at <= time + 1e-9 && !folder.empty())

@@ -93,6 +93,13 @@ TEST(CoveredHole, ChamferWidensTheSeat) {
   EXPECT_NEAR(ratio, 1.69, 1e-6);
 }
 
+// A clump of sub-spheres sits a little deeper than a ball: still the pressure on the seat, not on more.
+TEST(CoveredHole, DeeperSeatIsHeldByTheSeatsArea) {
+  const CoveredHole hole(1e-3, 0.3e-3, 2e-3);
+  const double flush = hole.evaluate({seated(hole)}, 1).area[0].z;
+  EXPECT_NEAR(hole.evaluate({seated(hole, -0.1e-3)}, 1).area[0].z / flush, 1, 1e-12);
+}
+
 TEST(CoveredHole, ForceFallsWithDistanceWithoutAJump) {
   const CoveredHole hole(1e-3, 0.3e-3, 2e-3);
   const double held = -(hole.evaluate({seated(hole)}, 1).cover * hole.evaluate({seated(hole)}, 1).area[0].z);

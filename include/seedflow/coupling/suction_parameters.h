@@ -1,5 +1,6 @@
 #pragma once
 
+#include "seedflow/base/device_geometry.h"
 #include "seedflow/base/parameters.h"
 
 namespace seedflow {
@@ -37,6 +38,8 @@ struct SuctionBalance {
   double drop = 0;  ///< dp of the chamber below ambient [Pa]
   double flow = 0;  ///< Q [m3/s]
 };
+/// Effective area of the leak around the vacuum chamber [m2].
+double leak_area(const SuctionParameters& parameters, const DeviceGeometry& device);
 /// \param area S [m2]
 SuctionBalance suction_balance(const SuctionParameters& parameters, double area);
 

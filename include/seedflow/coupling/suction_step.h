@@ -63,7 +63,6 @@ class SuctionStep {
   void look(const Dem& dem);
   Vec3 step(Dem& dem, double dt);
   Vec3 velocity_at(const Vec3& x) const;
-  double leak_area() const;
 
   SuctionParameters parameters;
   DeviceGeometry device;

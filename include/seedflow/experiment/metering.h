@@ -83,8 +83,19 @@ struct Metering {
   double turned_at(double time) const { return speed * time; }
 };
 
+/// The device at rest on a test bench, in closed form: air flow, vacuum and holding force over the number of
+/// holes that seeds cover.
+struct SuctionBench {
+  double flow = 0;     ///< through the fan [m3/s]
+  double vacuum = 0;   ///< of the chamber below ambient [Pa]
+  double holding = 0;  ///< force on a seated seed [N]
+};
+/// \param covered number of holes with a seated seed, of those that face the vacuum
+SuctionBench suction_bench(const Metering& metering, double covered);
+
 int run_metering(const RunOptions& options);
 void describe_metering(std::ostream& out, const std::string& section);
+Observer metering_observer();
 int run_metering_map(const RunOptions& options);
 
 }  // namespace seedflow

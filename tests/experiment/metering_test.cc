@@ -1,0 +1,153 @@
+// The metering device from outside: a few soft spheres and four holes, seconds of computing.
+#include "seedflow/experiment/metering.h"
+
+#include <cmath>
+
+#include "seedflow/experiment/seeding_record.h"
+#include "tiny_run.h"
+
+namespace seedflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const tiny_device = R"(
+set Experiment = metering
+subsection Run
+  set End time = 0.9 s
+  set Series interval = 5 ms
+  set Field interval = 0
+end
+subsection Seeds
+  set Sub-spheres = 1
+end
+subsection Materials
+  set Shear modulus factor = 0.001
+end
+subsection Seeds motion
+  set Gravity = 0, -9.81, 0
+  set Time step = 4e-5 s
+end
+subsection Filling
+  set Mass = 2.7 g
+end
+subsection Device
+  set Drilled = 4
+  set First angle = -112 deg
+  set Chamber depth = 6.5 mm
+  set Chamber outer radius = 96 mm
+end
+subsection Metering
+  set Speed = 60 rpm
+  set Chamber from = -112 deg
+  set Pictures at = 0.3
+end
+)";
+
+class MeteringRuns : public TinyRun {
+ protected:
+  void SetUp() override {
+    TinyRun::SetUp();
+    write("device.prm", tiny_device);
+  }
+  std::vector<std::string> with(const std::vector<std::string>& set = {}, const std::string& name = "out",
+                                const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = arguments(set, name, more);
+    all[0] = (folder / "device.prm").string();
+    return all;
+  }
+  void refused(const std::vector<std::string>& set, const std::string& message) {
+    const RunOutcome result = run_here(with(set));
+    EXPECT_EQ(result.status, exit_bad_input) << message;
+    expect_contains(result.message, message);
+    EXPECT_FALSE(fs::exists(out() / "summary.json"));
+  }
+};
+
+TEST_F(MeteringRuns, ImpossibleInputIsNamed) {
+  refused({"Suction/Vacuum=3 kPa"}, "a vacuum is below the surroundings");
+  refused({"Suction/Vacuum=-20 kPa"}, "incompressible");
+  refused({"Metering/Blade clearance=-0.1 mm"}, "the blade would cut into the disc");
+  refused({"Metering/Blade height=7 mm"}, "reaches through the chamber's front cover");
+  refused({"Device/Hole diameter=4.5 mm"}, "the seeds would be drawn through the holes");
+  refused({"Device/Pitch radius=99.5 mm"}, "the holes reach over the disc's rim");
+  refused({"Metering/Tube position=-60 mm"}, "fall beside the tube, at x = -9");
+  refused({"Metering/Blade angle=170 deg"}, "does not stand between the pool");
+  refused({"Metering/Disc material=steel"}, "steel");
+  refused({"Seeds motion/Gravity=0, 0, -9.81"}, "the disc stands upright");
+  refused({"Air/Step=1 ms"}, "a seed falls into a hole within a millisecond");
+}
+
+// Spheres on a seat: the mean force of the vacuum is dp x seat area (0.9886 of it: the rim is a polygon).
+TEST_F(MeteringRuns, TakesCarriesAndLaysSeeds) {
+  const RunOutcome result = run_here(with());
+  ASSERT_EQ(result.status, exit_done) << result.message;
+  for (const char* name : {"summary.json", "used.prm", "series.csv", "report.html", "holes.csv",
+                           "landings.csv", "seed_A.csv", "walls.vtp", "device_0.3s.svg"})
+    EXPECT_TRUE(fs::exists(out() / name)) << name;
+  const Summary s = Summary::read(out() / "summary.json");
+  EXPECT_EQ(s.observable("unloading_n"), 4);
+  EXPECT_GE(s.observable("unloading_good_n"), 2);
+  EXPECT_GE(s.observable("seeds_laid"), s.observable("unloading_good_n"));
+  EXPECT_NEAR(s.observable("holding_force") / s.observable("pressure_times_seat_area"), 0.98, 0.03);
+  EXPECT_NEAR(s.observable("target_spacing"), 0.05, 1e-9);  // 60 holes, 1/s, 3 m/s
+  // Four open holes: 4 Cd A sqrt(2 dp/rho) at most, and less while seeds cover them.
+  const double open = 4 * 0.8 * M_PI * 1e-6 * std::sqrt(5000.0);
+  EXPECT_LT(s.observable("air_flow"), open);
+  EXPECT_GT(s.observable("air_flow"), 0.1 * open);
+}
+
+TEST_F(MeteringRuns, WithoutVacuumNothingIsTaken) {
+  ASSERT_EQ(run_here(with({"Suction/Vacuum=0", "Run/End time=0.5 s"})).status, exit_done);
+  const Summary s = Summary::read(out() / "summary.json");
+  EXPECT_EQ(s.observable("behind_blade_n"), 4);
+  EXPECT_EQ(s.observable("behind_blade_miss_n"), 4);
+  EXPECT_EQ(s.observable("air_flow"), 0);
+}
+
+TEST_F(MeteringRuns, ResumedRunIsTheSameToTheLastBit) {
+  ASSERT_EQ(run_here(with({"Run/End time=0.2 s"}, "whole")).status, exit_done);
+  ASSERT_EQ(run_here(with({"Run/End time=0.1 s"}, "parts")).status, exit_done);
+  const RunOutcome resumed = run_here(with({"Run/End time=0.2 s"}, "parts", {"--resume"}));
+  ASSERT_EQ(resumed.status, exit_done) << resumed.message;
+  EXPECT_EQ(read_file(out("whole") / "series.csv"), read_file(out("parts") / "series.csv"));
+  EXPECT_EQ(read_file(out("whole") / "holes.csv"), read_file(out("parts") / "holes.csv"));
+}
+
+TEST_F(MeteringRuns, SameOnTwoRanks) {
+  const std::string prm = (folder / "device.prm").string();
+  std::vector<std::string> args = with({"Run/End time=0.1 s"}, "two");
+  ASSERT_EQ(run_in_shell(command(args, 2), folder).status, exit_done);
+  ASSERT_EQ(run_here(with({"Run/End time=0.1 s"}, "one")).status, exit_done);
+  EXPECT_EQ(read_file(out("one") / "series.csv"), read_file(out("two") / "series.csv"));
+}
+
+TEST_F(MeteringRuns, LeakAndLineTakeVacuumAway) {
+  const std::vector<std::string> shared = {"Run/End time=50 ms"};
+  ASSERT_EQ(run_here(with(shared, "tight")).status, exit_done);
+  std::vector<std::string> leaky = shared;
+  leaky.insert(leaky.end(), {"Effects/Seal leak/Strength=1", "Effects/Suction line loss/Strength=1"});
+  ASSERT_EQ(run_here(with(leaky, "leaky")).status, exit_done);
+  const Summary tight = Summary::read(out("tight") / "summary.json"),
+                leak = Summary::read(out("leaky") / "summary.json");
+  EXPECT_NEAR(tight.observable("vacuum"), 3000, 1e-9);
+  EXPECT_LT(leak.observable("vacuum"), 2900);
+  EXPECT_GT(leak.observable("air_flow"), 2 * tight.observable("air_flow"));
+}
+
+TEST_F(MeteringRuns, MapRunsEveryPointOnce) {
+  const std::vector<std::string> set = {"Experiment=metering map", "Study/Vacuums=-1 kPa, -3 kPa",
+                                        "Study/Speeds=60 rpm, 120 rpm", "Study/Hole diameters=2 mm",
+                                        "Study/Turns=0.6"};
+  const RunOutcome result = run_here(with(set));
+  ASSERT_EQ(result.status, exit_done) << result.message;
+  for (const char* name : {"map.csv", "summary.json", "report.html", "runs/1000Pa_60rpm_2mm_1/summary.json",
+                           "runs/3000Pa_120rpm_2mm_1/summary.json"})
+    EXPECT_TRUE(fs::exists(out() / name)) << name;
+  const auto time = fs::last_write_time(out() / "runs/1000Pa_60rpm_2mm_1/summary.json");
+  ASSERT_EQ(run_here(with(set)).status, exit_done);
+  EXPECT_EQ(fs::last_write_time(out() / "runs/1000Pa_60rpm_2mm_1/summary.json"), time);
+}
+
+}  // namespace
+}  // namespace seedflow
