@@ -56,11 +56,11 @@ void SuctionParameters::check(const Parameters& p) const {
   if (!(vacuum <= 0))
     p.reject("Suction/Vacuum", "a vacuum is below the surroundings",
              "use a negative pressure, such as -3 kPa");
-  if (vacuum < -9000)
+  if (vacuum < -7500)
     p.reject("Suction/Vacuum",
              "the air would flow faster than a third of the speed of sound; the laws are those of "
              "incompressible air",
-             "use a pressure above -9 kPa");
+             "use a pressure above -7.5 kPa");
   if (air_step > 5e-4)
     p.reject("Air/Step", "a seed falls into a hole within a millisecond", "use at most 0.5 ms");
 }

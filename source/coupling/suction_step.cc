@@ -10,7 +10,7 @@ namespace seedflow {
 
 namespace {
 
-constexpr double fade_from = 6, fade_to = 8;  // distances at which a hole's flow fades out [pitch lengths]
+constexpr double fade_from = 3, fade_to = 4;  // distances at which a hole's flow fades out [pitch lengths]
 constexpr double reach_in_radii = 8;          // seeds farther than this leave a hole open: chi < 1e-3
 
 /// Into the frame of a hole: z from the disc towards the seeds, who are at negative z in the lab frame.
@@ -45,17 +45,12 @@ void SuctionStep::look(const Dem& dem) {
   const double turned = wall.motion.angle.at(dem.time()).value;
   const int n_seeds = dem.n_seeds();
   std::vector<Vec3> centre(n_seeds);
-  std::vector<double> angle(n_seeds);
-  for (int s = 0; s < n_seeds; ++s) {
-    centre[s] = dem.seed_state(s).centre;
-    angle[s] = std::atan2(centre[s].y, centre[s].x);
-  }
+  for (int s = 0; s < n_seeds; ++s) centre[s] = dem.seed_state(s).centre;
   seed_load.assign(n_seeds, SeedLoad());
   std::vector<double> open_area(hole.size());
   std::vector<std::pair<int, Vec3>> area;  // seed, chi x its vector area
   std::vector<CoveredHole::Ball> balls;
   std::vector<int> who;
-  const double near_angle = 2 * reach_in_radii * law.seat_radius / device.pitch_radius;
   const double leaking = leak_area(parameters, device);
   double sum = leaking;
   for (std::size_t k = 0; k < hole.size(); ++k) {
@@ -66,11 +61,10 @@ void SuctionStep::look(const Dem& dem) {
     balls.clear(), who.clear();
     if (parameters.blocking && h.exposure > 0)
       for (int s = 0; s < n_seeds; ++s) {
-        if (std::abs(std::remainder(angle[s] - h.angle, 2 * M_PI)) > near_angle) continue;
         const double radius = 0.5 * dem.seed_template(s).equivalent_diameter;
-        const Vec3 x = seen_from_mouth(centre[s], mouth[k]);
-        if (norm(x) - radius < reach_in_radii * law.seat_radius)
-          balls.push_back({x, radius}), who.push_back(s);
+        const double reach = radius + reach_in_radii * law.seat_radius;
+        if (norm_square(centre[s] - mouth[k]) < reach * reach)
+          balls.push_back({seen_from_mouth(centre[s], mouth[k]), radius}), who.push_back(s);
       }
     const CoveredHole::Outcome outcome = law.evaluate(balls, h.exposure);
     h.cover = outcome.cover;
@@ -95,8 +89,9 @@ Vec3 SuctionStep::velocity_at(const Vec3& x) const {
   for (std::size_t k = 0; k < hole.size(); ++k) {
     if (hole[k].flow <= 0) continue;
     const Vec3 from = seen_from_mouth(x, mouth[k]);
-    const double distance = norm(from) / pitch;
-    if (distance >= fade_to) continue;
+    const double square = norm_square(from);
+    if (square >= fade_to * fade_to * pitch * pitch) continue;
+    const double distance = std::sqrt(square) / pitch;
     const double t = std::clamp((fade_to - distance) / (fade_to - fade_from), 0.0, 1.0);
     sum +=
         t * t * (3 - 2 * t) * turned_back(aperture_velocity(from, device.hole_radius(), hole[k].flow, limit));

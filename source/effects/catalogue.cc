@@ -4,7 +4,6 @@
 #include <ostream>
 
 #include "seedflow/base/nearest_name.h"
-#include "seedflow/effects/contact_effects.h"
 #include "seedflow/effects/definitions.h"
 #include "seedflow/effects/device_effects.h"
 #include "seedflow/effects/drag_laws.h"
@@ -69,11 +68,7 @@ std::vector<std::string> effect_names() {
 
 void describe_effects(std::ostream& out, const std::string& name) {
   bool found = false;
-  std::vector<EffectRecord> records;
-  for (const auto& definition : effect_catalogue()) records.push_back(definition.record);
-  for (const auto& others : {contact_effect_records(), device_effect_records()})
-    records.insert(records.end(), others.begin(), others.end());
-  for (const EffectRecord& r : records) {
+  for (const EffectRecord& r : all_effect_records()) {
     if (name.empty())
       out << r.name << std::string(r.name.size() < 24 ? 24 - r.name.size() : 1, ' ') << r.summary << '\n';
     else if (r.name == name)

@@ -1,5 +1,8 @@
 #include "seedflow/effects/device_effects.h"
 
+#include "seedflow/effects/catalogue.h"
+#include "seedflow/effects/contact_effects.h"
+
 namespace seedflow {
 namespace {
 
@@ -50,6 +53,14 @@ EffectRecord disc_vibration() {
 
 std::vector<EffectRecord> device_effect_records() {
   return {seal_leak(), suction_line_loss(), disc_vibration()};
+}
+
+std::vector<EffectRecord> all_effect_records() {
+  std::vector<EffectRecord> records;
+  for (const auto& definition : effect_catalogue()) records.push_back(definition.record);
+  for (const auto& others : {contact_effect_records(), device_effect_records()})
+    records.insert(records.end(), others.begin(), others.end());
+  return records;
 }
 
 }  // namespace seedflow

@@ -35,15 +35,25 @@ RigidLoad reduce_loads(const SeedTemplate& model, const LoadLanes* loads, int la
   RigidLoad r{};
   Matrix6 mass = Matrix6::Zero(), drag = Matrix6::Zero();
   mass.diagonal() << model.mass, model.mass, model.mass, model.inertia.x, model.inertia.y, model.inertia.z;
+  bool forces_alone = true;
   for (int i = 0; i < model.n_spheres(); ++i) {
     const LoadLanes& l = loads[i];
     const Vec3& arm = model.position[i];
-    add_point(mass, arm, l.added_mass[lane]);
-    add_point(drag, arm, l.drag[lane]);
+    if (l.added_mass[lane] != 0 || l.drag[lane] != 0) {
+      forces_alone = false;
+      add_point(mass, arm, l.added_mass[lane]);
+      add_point(drag, arm, l.drag[lane]);
+    }
     const Vec3 push = l.force.get(lane) + l.drag[lane] * l.flow.get(lane);
     r.force += push;
     r.torque += l.torque.get(lane);
     for (int c = 0; c < 3; ++c) r.moment[c] += arm[c] * push;
+  }
+  if (forces_alone) {  // K = 0: X X^T = M^-1 is diagonal and phi_2(0) = 1/2
+    const Matrix6 inverse = mass.diagonal().cwiseInverse().asDiagonal();
+    Eigen::Map<Matrix6>(r.mobility) = inverse;
+    Eigen::Map<Matrix6>(r.mean_half) = Eigen::Map<Matrix6>(r.mean_full) = 0.5 * inverse;
+    return r;
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(drag, mass);
   const Matrix6 x = solver.eigenvectors();

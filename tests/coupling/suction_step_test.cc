@@ -41,7 +41,9 @@ struct SeatedSeed {
     plate.normal = {0, 0, -1};
     plate.thickness = device.thickness;
     plate.outline = DiscOutline{device.disc_radius};
-    plate.holes = HoleList{{{device.pitch_radius, 0}}};
+    HoleList holes;
+    holes.centre = {{device.pitch_radius, 0}};
+    plate.holes = holes;
     plate.hole_radius = device.hole_radius();
     plate.chamfer_width = plate.chamfer_depth = device.chamfer;
     const int disc = dem.add_wall(Wall(

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "seedflow/effects/device_effects.h"
 #include "seedflow/effects/drag_laws.h"
 
 namespace seedflow {
@@ -224,6 +225,21 @@ TEST(Catalogue, TrialEvaluationsLeaveTheMemoryAlone) {
   EXPECT_THROW(once.add(back, force), RunError);  // time went back
   back.time = 1, back.time_step = 0;
   EXPECT_THROW(once.add(back, force), RunError);
+}
+
+TEST(Catalogue, KnowsContactsAndDevicesToo) {
+  std::ostringstream list, one;
+  describe_effects(list);
+  for (const char* name : {"Drag", "Rolling friction", "Seal leak", "Disc vibration"})
+    EXPECT_NE(list.str().find(name), std::string::npos) << name;
+  describe_effects(one, "Suction line loss");
+  EXPECT_NE(one.str().find("dp = K rho/2 (Q/A)^2"), std::string::npos);
+  std::set<std::string> names;
+  for (const EffectRecord& r : all_effect_records()) {
+    EXPECT_TRUE(names.insert(r.name).second) << r.name;
+    EXPECT_FALSE(r.equation.empty() || r.validity.empty() || r.signature.empty() || r.references.empty())
+        << r.name;
+  }
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ struct SeedLoad {
 /// gradient"; the effect itself sees no pressure gradient but the hydrostatic one, so that nothing counts
 /// twice. All forces are held over a step (drag too: k dt/m is below 1e-3 for any seed).
 ///
-/// A hole's velocity fades out smoothly between 6 and 8 pitch lengths of the holes, where it is below 0.02
-/// m/s for 3 kPa.
+/// A hole's velocity fades out smoothly between 3 and 4 pitch lengths of the holes, where it is below 0.04
+/// m/s for 3 kPa (drag on a seed: 1e-4 of its weight).
 class SuctionStep {
  public:
   /// \param disc the wall that turns about the z axis and carries the holes. \param seed_radius of the ball

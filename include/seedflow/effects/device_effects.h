@@ -12,4 +12,7 @@ namespace seedflow {
 /// experiments with such a device (coupling/suction_parameters.h).
 std::vector<EffectRecord> device_effect_records();
 
+/// The records of all effects: those of effect_catalogue(), of contacts and of suction devices.
+std::vector<EffectRecord> all_effect_records();
+
 }  // namespace seedflow
