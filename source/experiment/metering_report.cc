@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 constexpr double rpm = 2 * M_PI / 60;
 
 BarPlot stations_plot(const SeedingRecord& record) {
-  BarPlot plot{"Holes with no, one and more seeds", {"none", "one", "more"}, {"holes", "%"}};
+  BarPlot plot{
+      "Holes with no, one and more seeds", {"none", "one", "more"}, {"holes", "%", false, 0.0, 100.0}};
   const struct {
     const char* label;
     int Passage::*station;
