@@ -185,7 +185,7 @@ void write_metering_report(const Metering& m, const Metering::Gathered& gathered
   report.paragraph(
       "`holes.csv`: every way of a hole from the pool with its numbers of seeds; `seed_A.csv`, `seed_B.csv`: "
       "the "
-      "two seeds; `landings.csv`: when seeds left the tube; `walls.vtp`: device for ParaView.");
+      "two seeds; `landings.csv`: when seeds left the tube.");
   report.write(fs::path(options.output) / "report.html");
 }
 

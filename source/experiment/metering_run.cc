@@ -7,8 +7,6 @@
 #include "seedflow/experiment/granular_report.h"
 #include "seedflow/experiment/metering_map.h"
 #include "seedflow/experiment/metering_report.h"
-#include "seedflow/output/vtu.h"
-#include "seedflow/seeds/wall_polygons.h"
 
 namespace seedflow {
 
@@ -110,8 +108,7 @@ void add_seeding(const Metering& m, const Metering::Gathered& gathered, double t
   summary.conserve("air of holes and leak against the fan's", gathered.air.largest_flow_error(), 1e-10);
 }
 
-void write_seeding_files(const Metering& m, const Metering::Gathered& gathered, const GranularRun& run,
-                         const fs::path& folder) {
+void write_seeding_files(const Metering::Gathered& gathered, const fs::path& folder) {
   const SeedingRecord& record = gathered.record;
   std::ostringstream holes;
   holes << "hole,begun [s],before the blade,behind the blade,at unloading\n";
@@ -122,20 +119,6 @@ void write_seeding_files(const Metering& m, const Metering::Gathered& gathered, 
   const NamedSeeds seeds = named_seeds(record);
   if (seeds.a >= 0) write_track(record.track(static_cast<int>(seeds.a)), folder / "seed_A.csv");
   if (seeds.b >= 0) write_track(record.track(static_cast<int>(seeds.b)), folder / "seed_B.csv");
-  PolygonSurface all;
-  const double edge = m.device.disc_radius + 5 * m.granular.model.diameter;
-  for (const Wall& wall : run.dem().walls()) {
-    if (!wall.active || wall.name == "housing") continue;
-    const PolygonSurface one =
-        wall_polygons(wall, run.dem().time(), {-edge, m.parts.floor, -edge}, {edge, edge, edge});
-    const int first = static_cast<int>(all.vertex.size());
-    all.vertex.insert(all.vertex.end(), one.vertex.begin(), one.vertex.end());
-    for (std::vector<int> polygon : one.polygon) {
-      for (int& corner : polygon) corner += first;
-      all.polygon.push_back(polygon);
-    }
-  }
-  Polygons(all.vertex, all.polygon).write(folder / "walls.vtp");
 }
 
 MeteringInput::MeteringInput(const RunOptions& options) {
@@ -168,7 +151,7 @@ int run_metering(const RunOptions& options) {
   job.run.carry_out(parameters, options, summary);
   add_seeding(metering, gathered, job.run.time(), summary);
   return job.finish(summary, [&] {
-    write_seeding_files(metering, gathered, job.run, options.output);
+    write_seeding_files(gathered, options.output);
     write_metering_report(metering, gathered, job.run, summary, options);
     const SeedingIndices behind = indices_of_counts(counts(gathered.record, &Passage::cleaned));
     std::cout << "behind the blade: " << behind.n << " holes";

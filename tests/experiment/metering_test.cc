@@ -80,10 +80,10 @@ TEST_F(MeteringRuns, ImpossibleInputIsNamed) {
 
 // Spheres on a seat: the mean force of the vacuum is dp x seat area (0.9886 of it: the rim is a polygon).
 TEST_F(MeteringRuns, TakesCarriesAndLaysSeeds) {
-  const RunOutcome result = run_here(with());
+  const RunOutcome result = run_here(with({"Run/Field interval=0.3 s"}));
   ASSERT_EQ(result.status, exit_done) << result.message;
   for (const char* name : {"summary.json", "used.prm", "series.csv", "report.html", "holes.csv",
-                           "landings.csv", "seed_A.csv", "walls.vtp", "device_0.3s.svg"})
+                           "landings.csv", "seed_A.csv", "walls.vtp", "moving_walls.pvd", "device_0.3s.svg"})
     EXPECT_TRUE(fs::exists(out() / name)) << name;
   const Summary s = Summary::read(out() / "summary.json");
   EXPECT_EQ(s.observable("unloading_n"), 4);

@@ -18,9 +18,8 @@ std::vector<int> counts(const SeedingRecord& record, int Passage::*station);
 /// Adds indices at the stations and on the ground, air consumption and the named seeds to the summary.
 void add_seeding(const Metering& metering, const Metering::Gathered& gathered, double time, Summary& summary);
 
-/// Writes holes.csv, seed_A.csv, seed_B.csv, landings.csv and walls.vtp.
-void write_seeding_files(const Metering& metering, const Metering::Gathered& gathered, const GranularRun& run,
-                         const std::filesystem::path& folder);
+/// Writes holes.csv, seed_A.csv, seed_B.csv and landings.csv.
+void write_seeding_files(const Metering::Gathered& gathered, const std::filesystem::path& folder);
 
 void write_metering_report(const Metering& metering, const Metering::Gathered& gathered,
                            const GranularRun& run, const Summary& summary, const RunOptions& options);
