@@ -10,7 +10,7 @@
 #include "seedflow/base/units.h"
 #include "seedflow/diagnose/observable_model.h"
 #include "seedflow/effects/catalogue.h"
-#include "seedflow/effects/contact_effects.h"
+#include "seedflow/effects/device_effects.h"
 
 namespace seedflow {
 
@@ -103,9 +103,8 @@ void ObservableModel::choose_candidates() {
   if (all_candidates.empty()) {
     std::vector<std::string> names;
     // One realisation of a random effect is no signature; it can still be asked for by name.
-    for (const EffectDefinition& effect : effect_catalogue())
-      if (!effect.record.random) names.push_back(effect.record.name);
-    for (const EffectRecord& record : contact_effect_records()) names.push_back(record.name);
+    for (const EffectRecord& record : all_effect_records())
+      if (!record.random) names.push_back(record.name);
     for (const std::string& name : names) {
       const std::string path = "Effects/" + name + "/Strength";
       if (name == "Inferred law" || !has_entry(path)) continue;

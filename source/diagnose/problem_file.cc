@@ -9,7 +9,7 @@
 #include "seedflow/base/parameter_file.h"
 #include "seedflow/base/units.h"
 #include "seedflow/effects/catalogue.h"
-#include "seedflow/effects/contact_effects.h"
+#include "seedflow/effects/device_effects.h"
 
 namespace seedflow {
 
@@ -37,8 +37,8 @@ Candidate read_candidate(const std::string& text) {
     const Unit unit = parts.unit.empty() ? Unit() : parse_unit(parts.unit);
     return {last, {{path, 0, std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent)}}};
   }
-  std::vector<std::string> names = effect_names();
-  for (const EffectRecord& record : contact_effect_records()) names.push_back(record.name);
+  std::vector<std::string> names;
+  for (const EffectRecord& record : all_effect_records()) names.push_back(record.name);
   if (std::find(names.begin(), names.end(), text) == names.end())
     throw InputError("Candidates: there is no effect \"" + text + "\". " + suggestion(text, names, "effect"));
   return {text, {{"Effects/" + text + "/Strength", 0, 1}}};

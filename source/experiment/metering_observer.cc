@@ -42,8 +42,8 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
          [&](const MeteringInput&, const Parameters& p) { value = to_si(p.value(path), p.unit(path)); });
     return value;
   };
-  run.observe = [prm, overrides](const std::vector<std::pair<std::string, double>>& changes,
-                                 const std::vector<WantedValue>& wanted) {
+  run.simulate = [prm, overrides](const PreparedRun::Changes& changes, const std::vector<WantedValue>& wanted,
+                                  MPI_Comm) {
     std::vector<std::string> all = overrides;
     for (const auto& [path, value] : changes) all.push_back(path + "=" + exact_text(value));
     std::vector<double> values;
