@@ -1,5 +1,6 @@
 #include "seedflow/experiment/experiment.h"
 #include "seedflow/fluid/cavity_benchmark.h"
+#include "seedflow/fluid/rotor_benchmark.h"
 #include "seedflow/mesh/point_location_bench.h"
 #include "seedflow/seeds/bench_seeds.h"
 
@@ -62,6 +63,20 @@ std::vector<BenchResult> air() {
           {"air/update", s.update / b.seconds, "of the time", ranks}};
 }
 
+std::vector<BenchResult> rotor() {
+  const RotorBenchmark b = bench_rotor(64, 8, "trilinos", MPI_COMM_WORLD);
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return {{"rotor/turning", b.turning, "of the time", ranks},
+          {"rotor/step", b.seconds_per_step, "s", ranks},
+          {"rotor/cells", b.cells, "1", ranks},
+          {"rotor/interface faces", b.interface_faces, "1", ranks},
+          {"rotor/pressure iterations", b.pressure_iterations, "per step", ranks},
+          {"rotor/momentum iterations", b.momentum_iterations, "per step", ranks},
+          {"rotor/multigrids built", b.preconditioners, "per step", ranks},
+          {"rotor/mass residual", b.mass_residual, "1", ranks}};
+}
+
 std::vector<BenchResult> locate() {
   const PointLocationRate r = measure_point_location(MPI_COMM_SELF);
   return {{"locate/look-up", r.look_up_ms, "ms per coupling step"},
@@ -78,6 +93,7 @@ std::vector<BenchResult> locate() {
 std::vector<Bench> bench_catalogue() {
   return {
       {"air", "lid-driven cavity of 40^3 cells, implicit convection, pressure to 1e-6", air},
+      {"rotor", "slab turning under another, 2 x 98,304 cells, sliding interface between them", rotor},
       {"seeds-bonded", "settled heap of 800 bonded seeds of 70 sub-spheres", seeds_bonded},
       {"seeds-rigid", "settled heaps of 200 and 2000 rigid seeds of 70 sub-spheres", seeds_rigid},
       {"spheres", "settled bed of 10,000 plain spheres", spheres},

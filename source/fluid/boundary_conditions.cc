@@ -16,6 +16,7 @@ const std::map<std::string, BoundaryType>& type_names() {
   static const std::map<std::string, BoundaryType> names = {
       {"wall", BoundaryType::wall},
       {"moving wall", BoundaryType::moving_wall},
+      {"rotor wall", BoundaryType::rotor_wall},
       {"velocity inlet", BoundaryType::velocity_inlet},
       {"pressure outlet", BoundaryType::pressure_outlet},
       {"pressure inlet", BoundaryType::pressure_inlet},
@@ -120,7 +121,7 @@ BoundaryConditions<dim> parse_boundary_conditions(const std::string& text, const
   }
   if (rest)
     for (const auto& [id, name] : domain.sides())
-      if (!domain.is_periodic(name)) result.emplace(name, *rest);
+      if (!domain.is_periodic(name) && !domain.is_sliding(name)) result.emplace(name, *rest);
   check_boundary_conditions(result, domain);
   return result;
 }
@@ -130,6 +131,10 @@ void check_boundary_conditions(const BoundaryConditions<dim>& conditions, const 
   for (const auto& [name, c] : conditions) {
     domain.side(name);
     const std::string where = "Air/Boundary conditions, side \"" + name + "\"";
+    if (domain.is_sliding(name))
+      throw InputError(where + ": slides along another side, where rotor and stator meet. Leave it out.");
+    if (c.type == BoundaryType::rotor_wall && !domain.rotor())
+      throw InputError(where + ": a rotor wall, but no part of the mesh turns. Use a moving wall.");
     if ((c.type == BoundaryType::periodic) != domain.is_periodic(name))
       throw InputError(where +
                        (c.type == BoundaryType::periodic
@@ -144,7 +149,7 @@ void check_boundary_conditions(const BoundaryConditions<dim>& conditions, const 
       throw InputError(where + ": its " + (needs_velocity ? "velocity" : "pressure") + " is missing.");
   }
   for (const auto& [id, name] : domain.sides())
-    if (!conditions.count(name) && !domain.is_periodic(name))
+    if (!conditions.count(name) && !domain.is_periodic(name) && !domain.is_sliding(name))
       throw InputError("Air/Boundary conditions: side \"" + name + "\" has no condition. Add `" + name +
                        ": wall` (or another type), or `*: wall` for all sides "
                        "not named.");

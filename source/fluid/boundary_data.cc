@@ -16,6 +16,7 @@ int rank_of(BoundaryType type) {
     case BoundaryType::wall:
       return 0;
     case BoundaryType::moving_wall:
+    case BoundaryType::rotor_wall:
       return 1;
     case BoundaryType::velocity_inlet:
       return 2;
@@ -57,8 +58,11 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
                                         const BoundaryConditions<dim>& conditions)
     : space(s) {
   std::map<dealii::types::boundary_id, int> index;
+  has_rotor = domain.rotor() != nullptr;
+  if (has_rotor) rotor = *domain.rotor();
+  std::vector<char> node_turns(s.constrained.size(), 0);
   for (const auto& [id, name] : domain.sides()) {
-    if (domain.is_periodic(name)) continue;
+    if (domain.is_periodic(name) || domain.is_sliding(name)) continue;
     index[id] = names.size();
     names.push_back(name);
     condition.push_back(conditions.at(name));
@@ -90,10 +94,11 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
     const std::uint32_t number = owned ? cell_number++ : 0;
     if (!cell->at_boundary()) continue;
     cell->get_dof_indices(ids);
+    const bool turns = has_rotor && cell->material_id() == rotor.material;
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary()) continue;
       const auto found = index.find(cell->face(f)->boundary_id());
-      if (found == index.end()) continue;  // periodic
+      if (found == index.end()) continue;  // periodic or sliding
       const int side = found->second;
       const BoundaryType type = condition[side].type;
       values.reinit(cell, f);
@@ -110,6 +115,7 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
         if (!s.fe.has_support_on_face(i, f)) continue;
         if (!owned && !partitioner.in_local_range(ids[i]) && !partitioner.is_ghost_entry(ids[i])) continue;
         const std::uint32_t node = partitioner.global_to_local(ids[i]);
+        node_turns[node] = turns;
         position[node] = domain.mapping().transform_unit_to_real_cell(cell, support[i]);
         for (int d = 0; d < dim; ++d) {
           const bool decides = gives_velocity(type) || (type == BoundaryType::slip && d == axis) ||
@@ -126,6 +132,7 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
       for (unsigned int q = 0; q < rule.size(); ++q) {
         const auto point = domain.mapping().transform_real_to_unit_cell(cell, values.quadrature_point(q));
         face.normal.push_back(values.normal_vector(q) * values.JxW(q));
+        if (turns) face.position.push_back(values.quadrature_point(q));
         for (int i = 0; i < n; ++i) {
           face.value.push_back(values.shape_value(i, q));
           sums[{partitioner.global_to_local(ids[i]), side}] += values.shape_value(i, q) * face.normal.back();
@@ -137,12 +144,15 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
         }
         face.nearest.push_back(nearest);
       }
-      if (type == BoundaryType::velocity_inlet || type == BoundaryType::moving_wall)
-        faces.push_back(std::move(face));
+      face.turns = turns;
+      // A wall that stands lets nothing through; along a part of the mesh that turns, it moves relative to
+      // it.
+      if (gives_velocity(type) && (type != BoundaryType::wall || turns)) faces.push_back(std::move(face));
     }
   }
   for (const auto& [key, normal] : sums)
-    if (normal.norm() > 0) normals.push_back({key.first, key.second, normal});
+    if (normal.norm() > 0)
+      normals.push_back({key.first, key.second, normal, node_turns[key.first] > 0, position[key.first]});
 
   const std::uint32_t n_owned = partitioner.locally_owned_size();
   NodalVector flag;
@@ -150,7 +160,8 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
   const auto mark = [&](const std::vector<int>& side_of, std::vector<Node>& nodes, std::vector<char>& fixed) {
     flag = 0;
     for (std::uint32_t i = 0; i < n_owned; ++i) {
-      if (side_of[i] >= 0 && !s.constrained[i]) nodes.push_back({i, side_of[i], position[i]});
+      if (side_of[i] >= 0 && !s.constrained[i])
+        nodes.push_back({i, side_of[i], position[i], node_turns[i] > 0});
       if (side_of[i] >= 0 || s.constrained[i]) flag.local_element(i) = 1;
     }
     flag.update_ghost_values();
@@ -162,13 +173,49 @@ BoundaryData<dim, degree>::BoundaryData(const Space& s, const Domain<dim>& domai
 }
 
 template <int dim, int degree>
+template <typename Visit>
+void BoundaryData<dim, degree>::visit_turning(const Visit& visit) {
+  Vector none;
+  for (auto* list : {&fixed_pressure})
+    for (Node& node : *list)
+      if (node.turns) visit(node.position, none);
+  for (auto& list : fixed_velocity)
+    for (Node& node : list)
+      if (node.turns) visit(node.position, none);
+  for (NodeNormal& n : normals)
+    if (n.turns) visit(n.position, n.normal);
+  for (Face& face : faces)
+    for (std::size_t q = 0; face.turns && q < face.normal.size(); ++q)
+      visit(face.position[q], face.normal[q]);
+}
+
+template <int dim, int degree>
+void BoundaryData<dim, degree>::turn_to(const Rotor<dim>& r, double angle) {
+  if (points_at_rest.empty())
+    visit_turning([&](const dealii::Point<dim>& x, const Vector& v) {
+      points_at_rest.push_back(x);
+      vectors_at_rest.push_back(v);
+    });
+  const auto rotation = r.rotation(angle);
+  std::size_t k = 0;
+  visit_turning([&](dealii::Point<dim>& x, Vector& v) {
+    x = angle == 0 ? points_at_rest[k] : r.centre + rotation * (points_at_rest[k] - r.centre);
+    v = angle == 0 ? vectors_at_rest[k] : rotation * vectors_at_rest[k];
+    ++k;
+  });
+}
+
+template <int dim, int degree>
 void BoundaryData<dim, degree>::set_velocity(double time, std::array<NodalVector, dim>& u,
                                              double factor) const {
   for (int d = 0; d < dim; ++d)
     for (const Node& node : fixed_velocity[d]) {
       const auto& c = condition[node.side];
       const bool given = c.type == BoundaryType::moving_wall || c.type == BoundaryType::velocity_inlet;
-      u[d].local_element(node.node) = given ? factor * c.velocity(node.position, time)[d] : 0.0;
+      double& value = u[d].local_element(node.node);
+      value = given ? factor * c.velocity(node.position, time)[d] : 0.0;
+      if (c.type == BoundaryType::rotor_wall)
+        value = factor * rotor.velocity(node.position, turning_speed)[d];
     }
 }
 
@@ -192,6 +239,7 @@ double BoundaryData<dim, degree>::subtract_flux(const std::array<NodalVector, di
       for (int i = 0; i < n; ++i)
         for (int d = 0; d < dim; ++d)
           velocity[d] += face.value[q * n + i] * u[d].local_element(space.node[(group * n + i) * W + lane]);
+      if (face.turns) velocity -= rotor.velocity(face.position[q], turning_speed);
       double eps = 0;
       for (int k = 0; k < n_q; ++k)
         eps += face.extrapolate[q * n_q + k] * void_fraction[group * n_q + k][lane];
@@ -211,6 +259,15 @@ std::vector<dealii::Tensor<1, dim>> BoundaryData<dim, degree>::pressure_force(co
   std::vector<Vector> force(names.size());
   for (const auto& b : normals) force[b.side] -= p.local_element(b.node) * b.normal;
   return force;
+}
+
+template <int dim, int degree>
+std::vector<double> BoundaryData<dim, degree>::turning_moment() const {
+  std::vector<double> moment(names.size(), 0.0);
+  for (const auto& b : normals)
+    if (condition[b.side].type == BoundaryType::rotor_wall)
+      moment[b.side] += rotor.across(b.position - rotor.centre) * rotor.across(b.normal);
+  return moment;
 }
 
 template class BoundaryData<2, 1>;

@@ -20,6 +20,12 @@ Fluid<dim, degree>::Implementation::Implementation(const FluidParameters& p, Dom
   coefficients.upwinding = p.streamline_upwinding;
   coefficients.eddy_viscosity = p.eddy_viscosity * p.eddy_constant * p.eddy_constant;
   coefficients.degree = degree;
+  if (domain.rotor()) {
+    if (coefficients.full_stress)
+      throw InputError("Air/Viscous stress: full is not available with a rotor. Use laplacian.");
+    angle = domain.angle();
+    domain.turn_to(0);
+  }
   space = std::make_unique<NodalSpace<dim, degree>>(domain);
   set_up();
 }
@@ -50,6 +56,13 @@ void Fluid<dim, degree>::Implementation::set_up() {
   pressure_matrix_valid = multigrid_valid = false;
   multigrid_wanted = true;
   steps_since_start = 0;
+  sliding.reset();
+  if (!domain.rotor()) return;
+  for (PointField* f : {&fields.jump_p, &fields.jump_phi, &fields.mesh_velocity, &fields.predicted})
+    f->resize(points * dim, 0.0);
+  fields.viscosity.resize(points, 0.0);
+  sliding = std::make_unique<SlidingCoupling<dim, degree>>(*space, domain);
+  turn_to(angle);
 }
 
 template <int dim, int degree>

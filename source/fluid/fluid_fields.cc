@@ -76,8 +76,13 @@ std::vector<typename Fluid<dim, degree>::Vector> Fluid<dim, degree>::acceleratio
                     [&](std::size_t i, int l, std::size_t k, const auto& g) {
                       Vector u;
                       for (int d = 0; d < dim; ++d) u[d] = s.fields.u_old[k * dim + d][l];
+                      // Relative to the mesh; in a frozen rotor d/dt is that of the turning frame.
+                      Vector relative = u;
+                      for (int d = 0; d < dim; ++d) relative[d] -= s.fields.mesh_velocity[k * dim + d][l];
                       for (int d = 0; d < dim; ++d)
-                        result[i][d] = (u[d] - s.fields.u_older[k * dim + d][l]) * rate + u * g[d];
+                        result[i][d] = (u[d] - s.fields.u_older[k * dim + d][l]) * rate + relative * g[d];
+                      if (s.sliding && s.motion.mode == RotorMotion::Mode::frozen && relative != u)
+                        result[i] += s.motion.speed * s.domain.rotor()->across(u);
                     });
   return result;
 }
@@ -90,7 +95,12 @@ double Fluid<dim, degree>::courant_number(double dt) const {
     for (int q = 0; q < s.n_q; ++q) {
       const CellPoint<dim> at(*s.space, group, q);
       Lanes r[dim];
-      at.to_reference(&s.fields.u_old[(group * s.n_q + q) * dim], r);
+      Lanes relative[dim];
+      for (int d = 0; d < dim; ++d) {
+        const std::size_t k = (group * s.n_q + q) * dim + d;
+        relative[d] = s.fields.u_old[k] - s.fields.mesh_velocity[k];
+      }
+      at.to_reference(relative, r);
       largest = lane_max(largest, length<dim>(r));
     }
   double result = 0;

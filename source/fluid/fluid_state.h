@@ -5,6 +5,7 @@
 #include "seedflow/fluid/fluid.h"
 #include "seedflow/fluid/krylov.h"
 #include "seedflow/fluid/preconditioner.h"
+#include "seedflow/fluid/sliding_coupling.h"
 
 namespace seedflow {
 
@@ -33,6 +34,16 @@ struct Fluid<dim, degree>::Implementation {
   /// integrals and the inflow.
   std::pair<StepIntegrals<dim>, double> correct();
   void finish_step();
+
+  // fluid_rotor.cc; all of it does nothing without a rotor.
+  void turn_to(double angle);
+  /// Velocity of the mesh, the rotating frame's force, and the lifting of the old pressure.
+  void prepare_rotor();
+  void couple_momentum();
+  void couple_pressure();
+  /// The flux across the interface of a velocity at the points, and what turning cylinders must not count.
+  void subtract_interface_flux(const PointField& velocity, NodalVector& y);
+  void lift(const NodalVector& p, PointField& jump);
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
 
   double sum(double a) const { return dealii::Utilities::MPI::sum(a, domain.communicator()); }
@@ -62,6 +73,13 @@ struct Fluid<dim, degree>::Implementation {
   bool pressure_matrix_valid = false, multigrid_valid = false, multigrid_wanted = true;
   double pressure_target = 0;  ///< residual the pressure of this step is solved to [m^dim/s]
   double inertia_factor = 0;   ///< rho a0/dt the pressure matrix was assembled with
+
+  std::unique_ptr<SlidingCoupling<dim, degree>> sliding;  ///< null without a rotor
+  RotorMotion motion;
+  double angle = 0;          ///< [rad]
+  bool patch_valid = false;  ///< of the pressure matrix
+  typename SlidingCoupling<dim, degree>::Momentum interface_terms;
+  std::array<double, 2> interface_flow{};
 
   double domain_volume = 0;  ///< V [m^dim], all ranks
   /// The flow below which no balance can be judged, see MassBalance::flow.

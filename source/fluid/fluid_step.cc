@@ -19,6 +19,7 @@ void Fluid<dim, degree>::Implementation::advance(double dt, const Exchange<dim>&
   if (!(dt > 0) || !std::isfinite(dt)) fail("the time step is not a positive number.", "Give dt > 0.");
   if (steps_since_start > 0) coefficients.time = TimeScheme::bdf2(dt, dt_old);
   take(exchange);
+  prepare_rotor();
   solve_momentum();
   solve_pressure();
   finish_step();
@@ -105,6 +106,7 @@ void Fluid<dim, degree>::Implementation::solve_momentum() {
     }
     assemble_momentum(*space, coefficients, fields, *momentum_matrix, rhs,
                       boundary->has_open_side ? &mass_defect : nullptr);
+    couple_momentum();
     // Momentum carried through open sides: the outflow of each node times its velocity.
     for (const auto& node : boundary->fixed_pressure) {
       double& out = mass_defect.local_element(node.node);
@@ -152,8 +154,11 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
       if (multigrid_valid && preconditioned_values.empty()) preconditioned_values = pressure_matrix->value;
       assemble_pressure_matrix(*space, coefficients, fields, *pressure_matrix);
       pressure_matrix_valid = true;
+      patch_valid = false;
     }
+    couple_pressure();
     scale = std::sqrt(sum(assemble_pressure_rhs(*space, coefficients, fields, scalar_rhs)));
+    subtract_interface_flux(fields.predicted, scalar_rhs);
     inflow = sum(boundary->subtract_flux(fields.u, fields.eps, scalar_rhs));
     scalar_rhs.compress(dealii::VectorOperation::add);
   }
@@ -241,10 +246,12 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
 
 template <int dim, int degree>
 std::pair<StepIntegrals<dim>, double> Fluid<dim, degree>::Implementation::correct() {
+  lift(fields.phi, fields.jump_phi);
   StepIntegrals<dim> integrals = correct_velocity(*space, coefficients, fields, scalar_rhs);
   const auto subtract_flux = [&] {
     side_outflow.assign(boundary->names.size(), 0.0);
     const double inflow = boundary->subtract_flux(fields.u, fields.eps, scalar_rhs, &side_outflow);
+    subtract_interface_flux(fields.u_older, scalar_rhs);
     scalar_rhs.compress(dealii::VectorOperation::add);
     return inflow;
   };
@@ -268,6 +275,7 @@ std::pair<StepIntegrals<dim>, double> Fluid<dim, degree>::Implementation::correc
                                         parameters.max_iterations));
     psi.update_ghost_values();
     space->set_constrained(psi);
+    lift(psi, fields.jump_phi);
     refine_velocity(*space, coefficients, fields, psi, integrals, scalar_rhs);
     subtract_flux();
     fields.phi.zero_out_ghost_values();
@@ -311,11 +319,15 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   for (const auto* a :
        {integrals.change, integrals.exchange, integrals.pressure, integrals.share, integrals.momentum})
     sums.insert(sums.end(), a, a + dim);
-  std::vector<double> reaction(n_sides * dim, 0.0);
+  std::vector<double> reaction(n_sides * dim, 0.0), torque(sliding ? n_sides : 0, 0.0);
   for (int d = 0; d < dim; ++d) {
-    for (const auto& node : boundary->fixed_velocity[d])
-      reaction[node.side * dim + d] +=
+    for (const auto& node : boundary->fixed_velocity[d]) {
+      const double force =
           momentum_matrix->row_times(node.node, fields.u[d]) - rhs[d].local_element(node.node);
+      reaction[node.side * dim + d] += force;
+      if (sliding)
+        torque[node.side] += force * domain.rotor()->across(node.position - domain.rotor()->centre)[d];
+    }
     for (const auto& node : boundary->fixed_pressure)
       reaction[node.side * dim + d] -=
           mass_defect.local_element(node.node) * fields.u[d].local_element(node.node);
@@ -328,6 +340,19 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   for (const Vector& f : boundary->pressure_force(fields.p))
     for (int d = 0; d < dim; ++d) sums.push_back(f[d]);
   for (const auto* a : {&side_outflow, &side_power}) sums.insert(sums.end(), a->begin(), a->end());
+  if (sliding) {
+    const auto moment = boundary->turning_moment();
+    for (std::size_t side = 0; side < n_sides; ++side)
+      torque[side] -= coefficients.viscosity * motion.speed * moment[side];
+  }
+  sums.insert(sums.end(), torque.begin(), torque.end());
+  if (sliding) {
+    interface_flow = sliding->flow(fields.eps, fields.u_older);
+    for (const auto& forces :
+         {sliding->wall_force(interface_terms, fields.u), sliding->wall_pressure(fields.p)})
+      for (const Vector& f : forces)
+        for (int d = 0; d < dim; ++d) sums.push_back(f[d]);
+  }
   for (const double a : {inflow, through_open_sides, integrals.growth, integrals.circulation, total})
     sums.push_back(a);
   double volume = 0, p_sum = 0;
@@ -376,6 +401,17 @@ void Fluid<dim, degree>::Implementation::finish_step() {
   for (std::size_t side = 0; side < n_sides; ++side) {
     const double power = *next++;
     if (boundary->is_open(side)) mass.power[boundary->names[side]] = power;
+  }
+  if (sliding) {
+    for (const auto& name : boundary->names) balance.torque[name] = *next++;
+    const auto& pair = domain.rotor()->pairs.front();
+    for (const auto& name : {pair.rotor, pair.stator}) {
+      const Vector r = vector();
+      balance.reaction[name] = r;
+      left -= r;
+      scale = std::max(scale, r.norm());
+    }
+    for (const auto& name : {pair.rotor, pair.stator}) balance.pressure_force[name] = vector();
   }
   balance.residual = scale > 0 ? left.norm() / scale : 0;
   const double in = *next++, out = *next++, growth = *next++, circulation = *next++, sum_residual = *next++;

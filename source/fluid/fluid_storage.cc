@@ -71,6 +71,7 @@ void Fluid<dim, degree>::refine(
   for (const NodalVector* v : moved) v->update_ghost_values();
   dealii::parallel::distributed::SolutionTransfer<dim, NodalVector> transfer(s.space->dofs);
   transfer.prepare_for_coarsening_and_refinement(moved);
+  if (s.sliding) s.domain.turn_to(0);
   mesh.execute_coarsening_and_refinement();
   s.domain.require_cells_for_all_ranks();
   s.space->rebuild(s.domain);
@@ -113,6 +114,8 @@ void Fluid<dim, degree>::save(std::ostream& out) const {
   put(out, s.multigrid_valid);
   put(out, s.multigrid_wanted);
   put(out, s.iterations_when_built);
+  put(out, s.angle);
+  put(out, s.motion);
   const auto vector = [&](const NodalVector& v) { put_array(out, v.begin(), v.locally_owned_size()); };
   for (int d = 0; d < dim; ++d) {
     vector(s.fields.u[d]);
@@ -140,6 +143,13 @@ void Fluid<dim, degree>::load(std::istream& in) {
   get(in, s.multigrid_valid);
   get(in, s.multigrid_wanted);
   get(in, s.iterations_when_built);
+  double angle = 0;
+  get(in, angle);
+  get(in, s.motion);
+  if (s.sliding) {
+    s.turn_to(angle);
+    s.multigrid_valid = false;  // its matrix, at another angle, is not kept: it is built anew
+  }
   const auto vector = [&](NodalVector& v, bool constrain) {
     v.zero_out_ghost_values();
     get_array(in, v.begin(), v.locally_owned_size(), "a nodal field");

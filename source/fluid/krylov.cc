@@ -118,7 +118,7 @@ class BlockSystem {
         inverse_diagonal(n),
         exchange{like, like} {
     for (std::uint32_t i = 0; i < n; ++i) {
-      const double d = a.value[a.structure().diagonal[i]];
+      const double d = a.diagonal(i);
       inverse_diagonal[i] = d != 0 ? 1 / d : 1;
       for (int c = 0; c < components; ++c) free[i][c] = !(*fixed[c])[i];
     }
@@ -139,6 +139,13 @@ class BlockSystem {
       for (std::uint32_t k = s.row_start[row]; k < s.row_start[row + 1]; ++k)
         sum += value[k] * x[s.column[k]];
       y[row] = sum * free[row];
+    }
+    const PatchStructure* more = matrix.patch().get();
+    for (std::size_t r = 0; more && r < more->row.size(); ++r) {
+      Block sum{};
+      for (std::uint32_t k = more->start[r]; k < more->start[r + 1]; ++k)
+        sum += matrix.patch_value[k] * x[more->column[k]];
+      y[more->row[r]] += sum * free[more->row[r]];
     }
   }
   void precondition(Block* z, const Block* r) {

@@ -54,6 +54,7 @@ void project_terms(const NodalSpace<dim, degree>& space, const StepCoefficients&
       const std::size_t k = group * n_q + q;
       Lanes g[dim], value[n_values];
       gradient(space, at, q, p, g);
+      for (int d = 0; d < dim; ++d) g[d] += fields.jump_p[k * dim + d];
       const Lanes weight_m = (degree == 1 ? m[q] : mean) * at.weight, weight = weight_m / m[q];
       for (int d = 0; d < dim; ++d) {
         value[d] = weight * c.share(fields.eps[k]) * g[d];
@@ -123,13 +124,14 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
       Lanes w[dim];
       for (int d = 0; d < dim; ++d)
         w[d] = time.extrapolate_old * fields.u_old[k * dim + d] +
-               time.extrapolate_older * fields.u_older[k * dim + d];
+               time.extrapolate_older * fields.u_older[k * dim + d] - fields.mesh_velocity[k * dim + d];
       at.to_reference(w, w_ref[q]);
       const Lanes speed_by_h = length<dim>(w_ref[q]), inverse_h2 = at.inverse_h2();
       const Lanes m = c.inertia(eps, beta), share = c.share(eps);
       const Lanes mu = viscosity_at<dim, degree>(space, c, at, q, u);
       const Lanes theta = c.theta(m, eps, mu, speed_by_h, inverse_h2);
       fields.theta.at(k) = theta;
+      if (!fields.viscosity.is_uniform()) fields.viscosity.at(k) = mu;
       upwind[q] = c.upwind_time(eps, beta, mu, speed_by_h, inverse_h2);
 
       mass[q] = m * at.weight;
@@ -142,6 +144,7 @@ void assemble_momentum(const NodalSpace<dim, degree>& space, const StepCoefficie
       Lanes g[dim];
       gradient(space, at, q, p, g);
       for (int d = 0; d < dim; ++d) {
+        g[d] += fields.jump_p[k * dim + d];
         const Lanes projected = shape.interpolate(q, 0, y[d]);
         const Lanes terms = subscale_terms(c.dynamic_subscales, fields, k, d, share * g[d], rate, old, older);
         Lanes f = -(terms * (1.0 - theta) + m * theta * projected);

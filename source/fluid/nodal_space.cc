@@ -26,9 +26,13 @@ void NodalSpace<dim, degree>::rebuild(const Domain<dim>& domain) {
   jacobian.clear();
   constrained_cells.clear();
   lines.clear();
+  turning.clear();
+  jacobian_at_rest.clear();
+  position_at_rest.clear();
   number_nodes(domain);
   group_cells(domain);
   compute_geometry(domain);
+  if (domain.rotor()) find_turning_cells(domain);
 }
 
 template <int dim, int degree>
@@ -57,7 +61,9 @@ void NodalSpace<dim, degree>::number_nodes(const Domain<dim>& domain) {
       constraints.add_entries_local_to_global(ids, pattern, false);
     }
   for (const auto i : owned) pattern.add(i, i);
-  structure = std::make_shared<SparsityStructure>(pattern, owned, written, domain.communicator());
+  structure =
+      std::make_shared<SparsityStructure>(pattern, owned, written, domain.communicator(),
+                                          domain.rotor() ? nodes_at_interface(domain) : dealii::IndexSet());
 
   const auto& partitioner = *structure->partitioner;
   constrained.assign(partitioner.locally_owned_size() + partitioner.n_ghost_indices(), 0);

@@ -22,19 +22,26 @@ class Petsc : public Preconditioner {
     const auto& partitioner = *s.partitioner;
     const PetscInt n = s.n_owned();
     const MPI_Comm comm = partitioner.get_mpi_communicator();
-    std::vector<PetscInt> start(s.row_start.begin(), s.row_start.begin() + n + 1), column(start.back());
+    const bool patched = m.patch() != nullptr;
+    const SparseMatrix::Rows rows = patched ? m.merged() : SparseMatrix::Rows();
+    const std::uint32_t* from = patched ? rows.start.data() : s.row_start.data();
+    const std::uint32_t* columns = patched ? rows.column.data() : s.column.data();
+    const double* values = patched ? rows.value.data() : m.value.data();
+    std::vector<PetscInt> start(from, from + n + 1), column(start.back());
     std::vector<PetscScalar> value(start.back());
     for (PetscInt i = 0; i < n; ++i)
       for (PetscInt k = start[i]; k < start[i + 1]; ++k) {
-        const PetscInt local = s.column[k];
+        const PetscInt local = columns[k];
         column[k] = partitioner.local_to_global(local);
-        const double a = m.value[k];
+        const double a = values[k];
         if (local == i)
           value[k] = a != 0 ? a : 1.0;
         else
           value[k] = fixed[i] || fixed[local] ? 0.0 : a;
       }
-    if (singular && partitioner.in_local_range(0)) value[s.diagonal[0]] *= 1.5;
+    if (singular && partitioner.in_local_range(0))
+      for (PetscInt k = start[0]; k < start[1]; ++k)
+        if (column[k] == 0) value[k] *= 1.5;
     check(MatCreateMPIAIJWithArrays(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, start.data(), column.data(),
                                     value.data(), &matrix),
           "MatCreateMPIAIJWithArrays");

@@ -7,10 +7,9 @@ namespace {
 class Jacobi : public Preconditioner {
  public:
   void build(const SparseMatrix& matrix, const std::vector<char>&, bool) override {
-    const auto& s = matrix.structure();
-    inverse.resize(s.n_owned());
+    inverse.resize(matrix.structure().n_owned());
     for (std::size_t i = 0; i < inverse.size(); ++i) {
-      const double a = matrix.value[s.diagonal[i]];
+      const double a = matrix.diagonal(i);
       inverse[i] = a != 0 ? 1 / a : 1;
     }
   }

@@ -40,7 +40,7 @@ void assemble_pressure_matrix(const NodalSpace<dim, degree>& space, const StepCo
 
 template <int dim, int degree>
 double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoefficients& c,
-                             const FlowFields<dim>& fields, NodalVector& rhs) {
+                             FlowFields<dim>& fields, NodalVector& rhs) {
   constexpr int n = NodalSpace<dim, degree>::n, n_q = NodalSpace<dim, degree>::n_q;
   const auto& shape = space.shape;
   const double rate = c.density / c.time.dt;
@@ -63,11 +63,15 @@ double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoe
       const Lanes old = c.time.old * fields.eps_old[k], older = c.time.older * fields.eps_older[k];
       Lanes g[dim], velocity[dim];
       gradient(space, at, q, p, g);
-      for (int d = 0; d < dim; ++d)
+      for (int d = 0; d < dim; ++d) {
+        g[d] += fields.jump_p[k * dim + d];
         velocity[d] =
             shape.interpolate(q, 0, u[d]) -
             theta * (subscale_terms(dynamic, fields, k, d, share * g[d], rate, old, older) * inverse -
                      shape.interpolate(q, 0, y[d]));
+        if (!fields.predicted.is_uniform()) fields.predicted.at(k * dim + d) = velocity[d];
+        velocity[d] -= fields.mesh_velocity[k * dim + d];
+      }
       load[q][0] = -at.weight * (c.time.now * eps + old + older) / c.time.dt;
       at.to_reference(velocity, load[q] + 1);
       flow += at.weight * eps * length<dim>(load[q] + 1);
@@ -112,6 +116,8 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
       gradient(space, at, q, p, g);
       gradient(space, at, q, phi, g_phi);
       for (int d = 0; d < dim; ++d) {
+        g[d] += fields.jump_p[k * dim + d];
+        g_phi[d] += fields.jump_phi[k * dim + d];
         velocity[d] =
             shape.interpolate(q, 0, u[d]) - kappa * g_phi[d] -
             theta * (subscale_terms(dynamic, fields, k, d, share * g[d], rate, old, older) * inverse -
@@ -127,6 +133,7 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space, const 
       circulation += w * eps * length<dim>(velocity);
       load[q][0] = -w * (c.time.now * eps + old + older) / c.time.dt;
       cell_growth += load[q][0];
+      for (int d = 0; d < dim; ++d) velocity[d] -= fields.mesh_velocity[k * dim + d];
       at.to_reference(velocity, load[q] + 1);
       for (int e = 0; e < dim; ++e) load[q][1 + e] *= w * eps;
     }
@@ -167,6 +174,7 @@ void refine_velocity(const NodalSpace<dim, degree>& space, const StepCoefficient
       Lanes g[dim], velocity[dim];
       gradient(space, at, q, nodal, g);
       for (int d = 0; d < dim; ++d) {
+        g[d] += fields.jump_phi[k * dim + d];
         const Lanes more = -share / inertia * g[d];
         velocity[d] = fields.u_older[k * dim + d] + more;
         change[d] += w * (inertia - beta) * more;
@@ -175,6 +183,7 @@ void refine_velocity(const NodalSpace<dim, degree>& space, const StepCoefficient
         share_sum[d] += w * (1.0 - share) * g[d];
         momentum[d] += w * c.density * eps * more;
         fields.u_older.at(k * dim + d) = velocity[d];
+        velocity[d] -= fields.mesh_velocity[k * dim + d];
       }
       load[q][0] = -w *
                    (c.time.now * eps + c.time.old * fields.eps_old[k] + c.time.older * fields.eps_older[k]) /
@@ -200,7 +209,7 @@ void refine_velocity(const NodalSpace<dim, degree>& space, const StepCoefficient
   template void assemble_pressure_matrix(const NodalSpace<dim, degree>&, const StepCoefficients&,          \
                                          const FlowFields<dim>&, SparseMatrix&);                           \
   template double assemble_pressure_rhs(const NodalSpace<dim, degree>&, const StepCoefficients&,           \
-                                        const FlowFields<dim>&, NodalVector&);                             \
+                                        FlowFields<dim>&, NodalVector&);                                   \
   template StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>&, const StepCoefficients&,    \
                                                FlowFields<dim>&, NodalVector&);                            \
   template void refine_velocity(const NodalSpace<dim, degree>&, const StepCoefficients&, FlowFields<dim>&, \

@@ -11,7 +11,8 @@ namespace seedflow {
 using dealii::types::global_dof_index;
 
 SparsityStructure::SparsityStructure(dealii::DynamicSparsityPattern& pattern, const dealii::IndexSet& owned,
-                                     const dealii::IndexSet& relevant, MPI_Comm comm) {
+                                     const dealii::IndexSet& relevant, MPI_Comm comm,
+                                     const dealii::IndexSet& also) {
   // What this rank's cells add to rows of others, before those rows are completed.
   dealii::IndexSet others = relevant;
   others.subtract_set(owned);
@@ -23,6 +24,7 @@ SparsityStructure::SparsityStructure(dealii::DynamicSparsityPattern& pattern, co
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, comm, relevant);
 
   dealii::IndexSet ghosts = relevant;
+  if (also.size() > 0) ghosts.add_indices(also);
   for (const global_dof_index row : owned)
     for (unsigned int k = 0; k < pattern.row_length(row); ++k)
       ghosts.add_index(pattern.column_number(row, k));
@@ -133,12 +135,65 @@ void SparseMatrix::multiply(int n, NodalVector* const* y, const NodalVector* con
   if (n == 1) multiply_rows<1>(*shape, value.data(), y, x);
   if (n == 2) multiply_rows<2>(*shape, value.data(), y, x);
   if (n == 3) multiply_rows<3>(*shape, value.data(), y, x);
+  if (!more) return;
+  for (std::size_t r = 0; r < more->row.size(); ++r)
+    for (int d = 0; d < n; ++d) {
+      double sum = 0;
+      for (std::uint32_t k = more->start[r]; k < more->start[r + 1]; ++k)
+        sum += patch_value[k] * x[d]->local_element(more->column[k]);
+      y[d]->local_element(more->row[r]) += sum;
+    }
+}
+
+void SparseMatrix::set_patch(std::shared_ptr<const PatchStructure> places) {
+  more = std::move(places);
+  patch_value.assign(more ? more->column.size() : 0, 0.0);
+}
+
+double SparseMatrix::diagonal(std::uint32_t row) const {
+  double d = value[shape->diagonal[row]];
+  if (more && more->index[row] >= 0) d += patch_value[more->diagonal[more->index[row]]];
+  return d;
+}
+
+SparseMatrix::Rows SparseMatrix::merged() const {
+  Rows rows;
+  const SparsityStructure& s = *shape;
+  rows.start.push_back(0);
+  std::vector<std::pair<std::uint32_t, double>> entries;
+  for (std::uint32_t row = 0; row < s.n_owned(); ++row) {
+    entries.clear();
+    for (std::uint32_t k = s.row_start[row]; k < s.row_start[row + 1]; ++k)
+      entries.emplace_back(s.column[k], value[k]);
+    if (more && more->index[row] >= 0) {
+      const std::uint32_t r = more->index[row];
+      for (std::uint32_t k = more->start[r]; k < more->start[r + 1]; ++k)
+        entries.emplace_back(more->column[k], patch_value[k]);
+      std::sort(entries.begin(), entries.end(),
+                [](const auto& a, const auto& b) { return a.first < b.first; });
+    }
+    for (const auto& [column, a] : entries) {
+      if (rows.column.size() > rows.start.back() && rows.column.back() == column) {
+        rows.value.back() += a;
+      } else {
+        rows.column.push_back(column);
+        rows.value.push_back(a);
+      }
+    }
+    rows.start.push_back(rows.column.size());
+  }
+  return rows;
 }
 
 double SparseMatrix::row_times(std::uint32_t row, const NodalVector& x) const {
   double sum = 0;
   for (std::uint32_t k = shape->row_start[row]; k < shape->row_start[row + 1]; ++k)
     sum += value[k] * x.local_element(shape->column[k]);
+  if (more && more->index[row] >= 0) {
+    const std::uint32_t r = more->index[row];
+    for (std::uint32_t k = more->start[r]; k < more->start[r + 1]; ++k)
+      sum += patch_value[k] * x.local_element(more->column[k]);
+  }
   return sum;
 }
 

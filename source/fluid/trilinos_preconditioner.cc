@@ -20,18 +20,25 @@ class Trilinos : public Preconditioner {
   void build(const SparseMatrix& m, const std::vector<char>& fixed, bool singular) override {
     const SparsityStructure& s = m.structure();
     const int n = s.n_owned(), n_local = n + s.partitioner->n_ghost_indices();
-    if (!matrix) {
+    const bool patched = m.patch() != nullptr;
+    const SparseMatrix::Rows rows_of = patched ? m.merged() : SparseMatrix::Rows();
+    const std::uint32_t* from = patched ? rows_of.start.data() : s.row_start.data();
+    const std::uint32_t* columns_of = patched ? rows_of.column.data() : s.column.data();
+    const double* values_of = patched ? rows_of.value.data() : m.value.data();
+    if (!matrix || patched) {
+      multigrid.reset();
+      ilu.reset();
       std::vector<int> ids(n_local);
       for (int i = 0; i < n_local; ++i) ids[i] = s.partitioner->local_to_global(i);
       communicator = std::make_unique<Epetra_MpiComm>(s.partitioner->get_mpi_communicator());
       rows = std::make_unique<Epetra_Map>(-1, n, ids.data(), 0, *communicator);
       columns = std::make_unique<Epetra_Map>(-1, n_local, ids.data(), 0, *communicator);
       std::vector<int> length(n);
-      for (int i = 0; i < n; ++i) length[i] = s.row_start[i + 1] - s.row_start[i];
+      for (int i = 0; i < n; ++i) length[i] = from[i + 1] - from[i];
       matrix = std::make_unique<Epetra_CrsMatrix>(Copy, *rows, *columns, length.data(), true);
-      std::vector<int> local(s.column.begin(), s.column.end());
+      std::vector<int> local(columns_of, columns_of + from[n]);
       for (int i = 0; i < n; ++i)
-        matrix->InsertMyValues(i, length[i], m.value.data() + s.row_start[i], local.data() + s.row_start[i]);
+        matrix->InsertMyValues(i, length[i], values_of + from[i], local.data() + from[i]);
       matrix->FillComplete(*rows, *rows);
       matrix->OptimizeStorage();
     }
@@ -40,13 +47,15 @@ class Trilinos : public Preconditioner {
     matrix->ExtractCrsDataPointers(start, column, value);
     for (int i = 0; i < n; ++i)
       for (int k = start[i]; k < start[i + 1]; ++k) {
-        const double a = m.value[k];
+        const double a = values_of[k];
         if (column[k] == i)
           value[k] = a != 0 ? a : 1.0;
         else
           value[k] = fixed[i] || fixed[column[k]] ? 0.0 : a;
       }
-    if (singular && rows->MyGID(0)) value[s.diagonal[0]] *= 1.5;
+    if (singular && rows->MyGID(0))
+      for (int k = start[0]; k < start[1]; ++k)
+        if (column[k] == 0) value[k] *= 1.5;
     if (kind == PreconditionerKind::ilu) {
       ilu = std::make_unique<Ifpack_ILU>(matrix.get());
       Teuchos::ParameterList list;

@@ -82,9 +82,60 @@ inline std::unique_ptr<Domain<2>> ring(double inner, double middle, double outer
   return domain;
 }
 
+/// 3D: the same annuli with height 0.4 along z, `n_rotor`/8 and `n_stator`/8 cells high; the interface is a
+/// cylinder. Sides "inner", "outer", "rotor side", "stator side", "ends".
+inline std::unique_ptr<Domain<3>> tube(double inner, double middle, double outer, int n_rotor, int n_stator,
+                                       int refinements, MPI_Comm comm = MPI_COMM_WORLD) {
+  const double height = 0.4;
+  const auto shell = [height](double a, double b, int around, dealii::Triangulation<3>& mesh) {
+    std::vector<dealii::Point<3>> x;
+    std::vector<dealii::CellData<3>> cells;
+    const int up = around / 8;
+    for (int k = 0; k <= up; ++k)
+      for (int i = 0; i < around; ++i)
+        for (const double r : {a, b}) {
+          const double t = 2 * dealii::numbers::PI * i / around;
+          x.emplace_back(r * std::cos(t), r * std::sin(t), height * k / up);
+        }
+    for (int k = 0; k < up; ++k)
+      for (int i = 0; i < around; ++i) {
+        dealii::CellData<3> c;
+        for (int v = 0; v < 8; ++v)
+          c.vertices[v] = ((k + (v >> 2)) * around + (i + (v >> 1 & 1)) % around) * 2 + (v & 1);
+        cells.push_back(c);
+      }
+    mesh.create_triangulation(x, cells, dealii::SubCellData());
+  };
+  dealii::Triangulation<3> a, b, both;
+  shell(inner, middle, n_rotor, a);
+  shell(middle, outer, n_stator, b);
+  join<3>(
+      a, b,
+      [=](const dealii::Point<3>& x, bool turns) {
+        if (x[2] < 1e-9 || x[2] > height - 1e-9) return 4;
+        const double r = std::hypot(x[0], x[1]);
+        if (turns) return r < 0.5 * (inner + middle) ? 0 : 1;
+        return r < 0.5 * (middle + outer) ? 2 : 3;
+      },
+      both);
+  both.set_all_manifold_ids(0);
+  both.set_manifold(0, dealii::CylindricalManifold<3>(2));
+  auto domain = std::make_unique<Domain<3>>(
+      both,
+      std::map<dealii::types::boundary_id, std::string>{
+          {0, "inner"}, {1, "rotor side"}, {2, "stator side"}, {3, "outer"}, {4, "ends"}},
+      std::vector<std::string>(), comm);
+  domain->triangulation().refine_global(refinements);
+  Rotor<3> rotor;
+  rotor.pairs = {{"rotor side", "stator side"}};
+  domain->set_rotor(rotor);
+  return domain;
+}
+
 /// 3D: a block over another, x in [-a, a]^2 each, meeting at z = 0 in cells of different size; the lower one,
 /// of half-width `lower`, turns about z. Distorted by `bend` so that faces are general quadrilaterals.
-/// Sides "rotor top", "stator bottom" (the interface), "rotor wall", "stator wall".
+/// Sides "rotor top", "stator bottom" (the interface), "rotor wall", "stator wall", "floor" (of the rotor),
+/// "lid".
 inline std::unique_ptr<Domain<3>> blocks(double lower, int n_lower, double upper, int n_upper, double bend,
                                          MPI_Comm comm = MPI_COMM_WORLD) {
   dealii::Triangulation<3> a, b, both;
@@ -102,15 +153,21 @@ inline std::unique_ptr<Domain<3>> blocks(double lower, int n_lower, double upper
   block(upper, n_upper, 0, upper, b);
   join<3>(
       a, b,
-      [](const dealii::Point<3>& x, bool turns) {
+      [=](const dealii::Point<3>& x, bool turns) {
+        if (std::abs(x[2] + lower) < 1e-12) return 4;
+        if (std::abs(x[2] - upper) < 1e-12) return 5;
         return std::abs(x[2]) < 1e-12 ? (turns ? 1 : 2) : (turns ? 0 : 3);
       },
       both);
-  auto domain = std::make_unique<Domain<3>>(
-      both,
-      std::map<dealii::types::boundary_id, std::string>{
-          {0, "rotor wall"}, {1, "rotor top"}, {2, "stator bottom"}, {3, "stator wall"}},
-      std::vector<std::string>(), comm);
+  auto domain =
+      std::make_unique<Domain<3>>(both,
+                                  std::map<dealii::types::boundary_id, std::string>{{0, "rotor wall"},
+                                                                                    {1, "rotor top"},
+                                                                                    {2, "stator bottom"},
+                                                                                    {3, "stator wall"},
+                                                                                    {4, "floor"},
+                                                                                    {5, "lid"}},
+                                  std::vector<std::string>(), comm);
   Rotor<3> rotor;
   rotor.pairs = {{"rotor top", "stator bottom"}};
   domain->set_rotor(rotor);

@@ -14,6 +14,7 @@ namespace seedflow {
 /// What happens at one side of the air domain.
 ///   wall            u = 0
 ///   moving wall     u = given velocity
+///   rotor wall      u = velocity of the turning rotor there (of either part of the mesh)
 ///   velocity inlet  u = given velocity
 ///   pressure outlet p = given pressure; fluid that enters through it brings no momentum
 ///   pressure inlet  p = given pressure, no velocity along the side; entering fluid brings its own momentum
@@ -22,6 +23,7 @@ namespace seedflow {
 enum class BoundaryType {
   wall,
   moving_wall,
+  rotor_wall,
   velocity_inlet,
   pressure_outlet,
   pressure_inlet,
@@ -37,7 +39,8 @@ struct BoundaryCondition {
   std::function<double(const dealii::Point<dim>&, double)> pressure;  ///< (x [m], t [s]) -> [Pa]
 };
 
-/// Side name -> condition. Every side of the domain must have one (periodic sides may be left out).
+/// Side name -> condition. Every side of the domain must have one (periodic sides may be left out; sides of a
+/// sliding interface have none).
 template <int dim>
 using BoundaryConditions = std::map<std::string, BoundaryCondition<dim>>;
 

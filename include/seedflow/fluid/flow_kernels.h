@@ -19,10 +19,14 @@ struct FlowFields {
   PointField source{0.0};                             ///< drag source + force [N/m3]
   PointField u_old{0.0}, u_older{0.0};                ///< velocities that satisfy mass [m/s]
   PointField theta{0.0};                              ///< pressure stabilisation, set by assemble_momentum
-  Components u;        ///< u~; extrapolated before the momentum is solved [m/s]
-  Components y;        ///< projection of kappa grad p [m/s], see unresolved()
-  Components z;        ///< dynamic subscales only: projection of the past [m/s]
-  NodalVector p, phi;  ///< old pressure and its increment [Pa]
+  // Zero everywhere unless a part of the mesh turns: what lifting the jumps across the sliding interface adds
+  // to grad p and grad phi, the velocity of the mesh, and u~ less stabilisation, kept for its flux there.
+  PointField jump_p{0.0}, jump_phi{0.0}, mesh_velocity{0.0}, predicted{0.0};
+  PointField viscosity{0.0};  ///< with that of eddies [Pa s], set by assemble_momentum if not uniform
+  Components u;               ///< u~; extrapolated before the momentum is solved [m/s]
+  Components y;               ///< projection of kappa grad p [m/s], see unresolved()
+  Components z;               ///< dynamic subscales only: projection of the past [m/s]
+  NodalVector p, phi;         ///< old pressure and its increment [Pa]
 };
 
 /// y = (int c grad p q_i) / (int M q_i), and with dynamic subscales
@@ -32,6 +36,9 @@ struct FlowFields {
 template <int dim, int degree>
 void project_explicit_terms(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
                             FlowFields<dim>& fields);
+
+/// Gradients of the pressure include the lifting of jumps, and all fluxes are relative to the mesh: eps u
+/// stands for eps (u - u_mesh) in what follows.
 
 /// The momentum equation for u~: matrix (one for all components), right-hand sides, and, if `mass_defect` is
 /// not null, int eps w.grad q_i - int q_i d(eps)/dt of the extrapolated velocity w, which on open sides is
@@ -50,7 +57,7 @@ void assemble_pressure_matrix(const NodalSpace<dim, degree>& space, const StepCo
 /// (int eps |J^-1 u~|)^2 + (int |d(eps)/dt|)^2 on this rank: the square of the scale of that vector.
 template <int dim, int degree>
 double assemble_pressure_rhs(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
-                             const FlowFields<dim>& fields, NodalVector& rhs);
+                             FlowFields<dim>& fields, NodalVector& rhs);
 
 /// Integrals over this rank's cells after a step.
 template <int dim>
@@ -68,9 +75,9 @@ StepIntegrals<dim> correct_velocity(const NodalSpace<dim, degree>& space,
                                     const StepCoefficients& coefficients, FlowFields<dim>& fields,
                                     NodalVector& mass_residual);
 
-/// Takes kappa grad(psi) from the velocity of the end of the step (in fields.u_older, after
-/// correct_velocity), adds what that changes to the integrals (all but circulation and growth), and computes
-/// the mass residual of the result, again without boundary fluxes.
+/// Takes kappa grad(psi), with the lifting of its jumps in fields.jump_phi, from the velocity of the end of
+/// the step (in fields.u_older, after correct_velocity), adds what that changes to the integrals (all but
+/// circulation and growth), and computes the mass residual of the result, again without boundary fluxes.
 template <int dim, int degree>
 void refine_velocity(const NodalSpace<dim, degree>& space, const StepCoefficients& coefficients,
                      FlowFields<dim>& fields, const NodalVector& psi, StepIntegrals<dim>& integrals,

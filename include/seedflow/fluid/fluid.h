@@ -37,17 +37,34 @@ struct MassBalance {
 template <int dim>
 struct MomentumBalance {
   using Vector = dealii::Tensor<1, dim>;
-  Vector change;    ///< d/dt int rho eps u by the time scheme
-  Vector exchange;  ///< int (drag_source - drag_coefficient u + force), u of the end of the step
+  Vector change;  ///< d/dt int rho eps u by the time scheme
+  /// int (drag_source - drag_coefficient u + force), u of the end of the step; with a frozen rotor also
+  /// - rho eps omega x u
+  Vector exchange;
   Vector pressure;  ///< -int c grad p, c = eps (model A) or 1 (model B)
   /// Model A: int (1 - eps) grad p, what the air gains because the seeds bear their share of the pressure
   /// gradient.
   Vector pressure_share;
   /// Per side: what the side does to the air by shear and by momentum carried through it.
   std::map<std::string, Vector> reaction;
+  // The parts of sliding sides without partner count as walls, under the first pair's names.
   /// Per side: -oint p n. Their sum plus pressure_share is `pressure`.
   std::map<std::string, Vector> pressure_force;
   double residual = 0;  ///< what is left, relative to the largest term
+  /// With a rotor, per side: moment about its axis of the shear forces [N m, in 2D N], on rotor walls with
+  /// the part of the stress that the Laplacian form leaves out; not of walls at the sliding interface nor of
+  /// pressure.
+  std::map<std::string, double> torque;
+};
+
+/// How the part of the mesh that turns is treated (Domain::set_rotor).
+struct RotorMotion {
+  /// frozen: the mesh stands at its angle and the flow is that relative to the turning rotor (multiple
+  /// reference frames): convection relative to it, d/dt in its frame, so + rho eps omega x u in its cells.
+  /// sliding: the mesh turns (arbitrary Lagrangian-Eulerian); Fluid::turn_to before every step.
+  enum class Mode { frozen, sliding };
+  Mode mode = Mode::frozen;
+  double speed = 0;  ///< angular velocity omega about Rotor::axis [rad/s]
 };
 
 struct FluidStatistics {
@@ -56,6 +73,7 @@ struct FluidStatistics {
   /// CPU seconds on this rank since construction.
   double momentum_assembly = 0, momentum_solve = 0, pressure_assembly = 0, pressure_setup = 0,
          pressure_solve = 0, update = 0;
+  double turning = 0;  ///< of the sliding interface: lookup, couplings and their part of the matrices
 };
 
 /// The air: volume-averaged incompressible Navier-Stokes (Anderson & Jackson 1967, doi:10.1021/i160024a007)
@@ -95,6 +113,12 @@ class Fluid {
                    const std::function<double(const dealii::Point<dim>&)>& pressure,
                    const std::vector<double>& void_fraction = {});
 
+  /// With a rotor in the domain: how it moves. Errors: InputError without one.
+  void set_rotor_motion(const RotorMotion& motion);
+  /// Turns the rotor to this angle [rad], that of the end of the next step; before its `exchange` is
+  /// computed, because the points of layout() turn too. All ranks.
+  void turn_to(double angle);
+
   /// One step of size dt [s]. Empty arrays in `exchange` mean none (void fraction 1).
   /// Errors: RunError for a void fraction outside (0, 1], negative drag coefficient, NaN, a solver that does
   /// not converge, a closed domain whose inflow does not balance the change of void volume.
@@ -108,6 +132,9 @@ class Fluid {
   std::vector<Vector> acceleration() const;  ///< Du~/Dt = (u - u_old)/dt + u.grad u~ [m/s2]
 
   const MassBalance& mass_balance() const;
+  /// Volume flow out of the rotor and into the stator through the sliding interface, each from the equations
+  /// of its own side [m^dim/s].
+  std::array<double, 2> interface_flow() const;
   const MomentumBalance<dim>& momentum_balance() const;
   Vector momentum() const;  ///< int rho eps u [kg m/s]
   const FluidStatistics& statistics() const;

@@ -69,6 +69,19 @@ class NodalSpace {
     return inverse_jacobian(group, q)[dim * dim] * shape.weight[q];
   }
 
+  /// With a rotor in the domain: its cells as they are at this angle [rad], from the angle 0 at which the
+  /// space is built. All nodes of all cells at the sliding interface are ghosts on every rank, so that
+  /// numbers stay when the rotor turns.
+  void turn_to(const Rotor<dim>& rotor, double angle);
+  /// 1 in the lanes of cells that turn, for each group that has any.
+  struct TurningGroup {
+    std::uint32_t group;
+    Lanes turns;
+  };
+  const std::vector<TurningGroup>& turning_groups() const { return turning; }
+  /// The nodes that shape function i of a cell stands for, and how much: several at a hanging node.
+  std::vector<std::pair<std::uint32_t, double>> masters(std::uint32_t at, int i) const;
+
   /// Gives hanging and periodic nodes the values their constraints ask for; ghosts must be current.
   void set_constrained(NodalVector& x) const;
 
@@ -92,6 +105,12 @@ class NodalSpace {
   std::vector<std::uint8_t> jacobian_stride;       ///< 0 where the cells of a group are parallelepipeds
   std::vector<std::uint32_t> position;             ///< [((group n + i) n + j) W + lane], free groups
   std::vector<ConstrainedCell> constrained_cells;  ///< [(group - n_free_groups) W + lane]
+  dealii::IndexSet nodes_at_interface(const Domain<dim>& domain) const;
+  void find_turning_cells(const Domain<dim>& domain);
+  std::vector<TurningGroup> turning;
+  std::vector<Lanes> jacobian_at_rest;  ///< of the turning groups
+  std::vector<std::pair<std::uint32_t, dealii::Point<dim>>>
+      position_at_rest;  ///< of their points in `layout`
   std::vector<Line> lines;
 };
 

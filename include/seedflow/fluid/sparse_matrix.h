@@ -18,9 +18,11 @@ using NodalVector = dealii::LinearAlgebra::distributed::Vector<double>;
 /// rows of others.
 class SparsityStructure {
  public:
-  /// `pattern`: rows of the locally relevant unknowns as this rank's cells couple them. Collective.
+  /// `pattern`: rows of the locally relevant unknowns as this rank's cells couple them; `also`: further
+  /// unknowns to keep as ghosts. Collective.
   SparsityStructure(dealii::DynamicSparsityPattern& pattern, const dealii::IndexSet& owned,
-                    const dealii::IndexSet& relevant, MPI_Comm comm);
+                    const dealii::IndexSet& relevant, MPI_Comm comm,
+                    const dealii::IndexSet& also = dealii::IndexSet());
 
   /// Position of an entry in the value array; local numbers. The entry must exist.
   std::uint32_t position(std::uint32_t row, std::uint32_t column) const;
@@ -41,6 +43,16 @@ class SparsityStructure {
   std::vector<Message> sent, received;
 };
 
+/// Where a matrix has further entries in some of its owned rows: couplings that change from step to step
+/// while those of the mesh stay. A place may also occur in the SparsityStructure; the entries then add up.
+struct PatchStructure {
+  std::vector<std::uint32_t> row;       ///< owned rows, local numbers
+  std::vector<std::uint32_t> start{0};  ///< of each of them in `column`
+  std::vector<std::uint32_t> column;    ///< local numbers, in no order
+  std::vector<std::uint32_t> diagonal;  ///< position of the diagonal entry of each of them
+  std::vector<std::int32_t> index;      ///< [owned row]: place in `row`, -1 if it has no further entries
+};
+
 /// The values. Cells add to `value` directly, then compress() sends the rows of others home.
 class SparseMatrix {
  public:
@@ -48,6 +60,18 @@ class SparseMatrix {
 
   const SparsityStructure& structure() const { return *shape; }
   std::vector<double> value;
+
+  /// Gives the matrix these further entries, zero at first; null: none.
+  void set_patch(std::shared_ptr<const PatchStructure> places);
+  const std::shared_ptr<const PatchStructure>& patch() const { return more; }
+  std::vector<double> patch_value;  ///< complete on the owning rank; compress() has nothing to do with them
+  double diagonal(std::uint32_t row) const;
+  /// The owned rows with both kinds of entries, each column once.
+  struct Rows {
+    std::vector<std::uint32_t> start, column;
+    std::vector<double> value;
+  };
+  Rows merged() const;
 
   void set_zero();
   void compress();
@@ -58,6 +82,7 @@ class SparseMatrix {
 
  private:
   std::shared_ptr<const SparsityStructure> shape;
+  std::shared_ptr<const PatchStructure> more;
   std::vector<double> buffer;
 };
 

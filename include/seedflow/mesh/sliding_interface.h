@@ -77,6 +77,8 @@ class SlidingInterface {
   static dealii::Point<dim> in_cell(unsigned int face_number, const dealii::Point<dim - 1>& reference);
   /// The directions of the face's reference coordinates in the cell.
   static std::array<int, 2> directions(unsigned int face_number);
+  /// The vertex of the cell at a corner of a face, corners numbered lexicographically in directions().
+  static int vertex_at(unsigned int face_number, int corner);
 
  private:
   struct Surface {
@@ -100,6 +102,7 @@ class SlidingInterface {
   Rotor<dim> description;
   std::array<dealii::Tensor<1, 3>, 2> basis;  ///< across the axis
   double present = 0;
+  dealii::Tensor<2, dim> turn_matrix;
   std::vector<Face> all;
   std::vector<std::array<Corner, n_corners>> corner;  ///< in the parameters, at the present angle
   std::vector<std::array<Corner, n_corners>> corner_at_rest;
