@@ -23,14 +23,6 @@ FluidParameters parameters(const std::string& conditions, double viscosity) {
 }
 
 template <int dim>
-void refine_some(Domain<dim>& domain) {
-  for (const auto& cell : domain.triangulation().active_cell_iterators())
-    if (cell->is_locally_owned() && cell->center()[0] + 0.3 * cell->center()[1] > 0.2)
-      cell->set_refine_flag();
-  domain.triangulation().execute_coarsening_and_refinement();
-}
-
-template <int dim>
 void expect_mass_kept(const Fluid<dim>& fluid) {
   EXPECT_LT(fluid.mass_balance().largest, 1e-8);
   EXPECT_LT(fluid.mass_balance().total, 1e-8);

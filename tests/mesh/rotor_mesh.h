@@ -174,4 +174,13 @@ inline std::unique_ptr<Domain<3>> blocks(double lower, int n_lower, double upper
   return domain;
 }
 
+/// Refines some cells at the interface of either side: hanging nodes there.
+template <int dim>
+void refine_some(Domain<dim>& domain) {
+  for (const auto& cell : domain.triangulation().active_cell_iterators())
+    if (cell->is_locally_owned() && cell->center()[0] + 0.3 * cell->center()[1] > 0.2)
+      cell->set_refine_flag();
+  domain.triangulation().execute_coarsening_and_refinement();
+}
+
 }  // namespace seedflow

@@ -10,15 +10,6 @@ namespace {
 
 const double angles[] = {0, 0.1, 0.777, 2.5, 6.5, -40};
 
-/// Refines some cells at the interface of either side: hanging nodes there.
-template <int dim>
-void refine_some(Domain<dim>& domain) {
-  for (const auto& cell : domain.triangulation().active_cell_iterators())
-    if (cell->is_locally_owned() && cell->center()[0] + 0.3 * cell->center()[1] > 0.2)
-      cell->set_refine_flag();
-  domain.triangulation().execute_coarsening_and_refinement();
-}
-
 /// Largest distance between the two points, one per side, that belong to a quadrature point.
 template <int dim>
 double gap(const SlidingInterface<dim>& s) {
