@@ -7,8 +7,13 @@
 #include "seedflow/experiment/agreement.h"
 #include "seedflow/experiment/command_line.h"
 
+// Present when the linear algebra is OpenBLAS. Its waiting threads spin, which takes a core from the other
+// ranks and counts as computing time.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
   // The libraries started here (PETSc among them) read options of their own; they get none of ours.
   int no_arguments = 1;
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);

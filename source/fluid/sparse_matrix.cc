@@ -25,9 +25,14 @@ SparsityStructure::SparsityStructure(dealii::DynamicSparsityPattern& pattern, co
 
   dealii::IndexSet ghosts = relevant;
   if (also.size() > 0) ghosts.add_indices(also);
+  // Gathered and sorted first: an index set takes a sorted range in one pass, single ones by moving the rest.
+  std::vector<global_dof_index> beyond;
   for (const global_dof_index row : owned)
     for (unsigned int k = 0; k < pattern.row_length(row); ++k)
-      ghosts.add_index(pattern.column_number(row, k));
+      if (const auto c = pattern.column_number(row, k); !owned.is_element(c)) beyond.push_back(c);
+  std::sort(beyond.begin(), beyond.end());
+  beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
+  ghosts.add_indices(beyond.begin(), beyond.end());
   ghosts.subtract_set(owned);
   partitioner = std::make_shared<dealii::Utilities::MPI::Partitioner>(owned, ghosts, comm);
 
