@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "row_sum.h"
+
 namespace seedflow {
 
 namespace {
@@ -134,10 +136,10 @@ class BlockSystem {
         exchange[0].zero_out_ghost_values();
       }
     const double* value = matrix.value.data();
+    const std::uint32_t *start = s.row_start.data(), *column = s.column.data();
     for (std::uint32_t row = 0; row < n; ++row) {
-      Block sum{};
-      for (std::uint32_t k = s.row_start[row]; k < s.row_start[row + 1]; ++k)
-        sum += value[k] * x[s.column[k]];
+      const Block sum = row_sum<Block>(start[row], start[row + 1],
+                                       [&](std::uint32_t k) { return value[k] * x[column[k]]; });
       y[row] = sum * free[row];
     }
     const PatchStructure* more = matrix.patch().get();

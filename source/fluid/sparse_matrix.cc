@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "row_sum.h"
+
 namespace seedflow {
 
 using dealii::types::global_dof_index;
@@ -127,10 +129,9 @@ void multiply_rows(const SparsityStructure& s, const double* value, NodalVector*
   }
   const std::uint32_t *start = s.row_start.data(), *column = s.column.data();
   for (std::uint32_t row = 0; row < s.n_owned(); ++row) {
-    double sum[n] = {};
-    for (std::uint32_t k = start[row]; k < start[row + 1]; ++k)
-      for (int d = 0; d < n; ++d) sum[d] += value[k] * in[d][column[k]];
-    for (int d = 0; d < n; ++d) out[d][row] = sum[d];
+    for (int d = 0; d < n; ++d)
+      out[d][row] = row_sum<double>(start[row], start[row + 1],
+                                    [&](std::uint32_t k) { return value[k] * in[d][column[k]]; });
   }
 }
 
@@ -191,9 +192,9 @@ SparseMatrix::Rows SparseMatrix::merged() const {
 }
 
 double SparseMatrix::row_times(std::uint32_t row, const NodalVector& x) const {
-  double sum = 0;
-  for (std::uint32_t k = shape->row_start[row]; k < shape->row_start[row + 1]; ++k)
-    sum += value[k] * x.local_element(shape->column[k]);
+  const double* in = x.begin();
+  double sum = row_sum<double>(shape->row_start[row], shape->row_start[row + 1],
+                               [&](std::uint32_t k) { return value[k] * in[shape->column[k]]; });
   if (more && more->index[row] >= 0) {
     const std::uint32_t r = more->index[row];
     for (std::uint32_t k = more->start[r]; k < more->start[r + 1]; ++k)
