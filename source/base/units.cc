@@ -33,8 +33,12 @@ const std::map<std::string, NamedUnit>& named_units() {
       {"Hz", {{{0, 0, -1, 0, 0}}, true}},
       {"K", {{{0, 0, 0, 1, 0}}, false}},
       {"degC", {{{0, 0, 0, 1, 0}, 1, 0, 273.15}, false}},
+      {"\xc2\xb0"
+       "C",
+       {{{0, 0, 0, 1, 0}, 1, 0, 273.15}, false}},
       {"rad", {{{0, 0, 0, 0, 1}}, false}},
       {"deg", {{{0, 0, 0, 0, 1}, pi / 180}, false}},
+      {"\xc2\xb0", {{{0, 0, 0, 0, 1}, pi / 180}, false}},
       {"rev", {{{0, 0, 0, 0, 1}, 2 * pi}, false}},
       {"rpm", {{{0, 0, -1, 0, 1}, 2 * pi / 60}, false}},
       {"N", {{{1, 1, -2, 0, 0}}, true}},
@@ -188,6 +192,7 @@ std::string join(const std::vector<std::string>& names) {
 }  // namespace
 
 Unit parse_unit(const std::string& text) {
+  if (text == "-") return {};  // how tables write a pure number
   return UnitReader(text).read();
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <map>
@@ -186,19 +185,6 @@ std::vector<std::vector<BenchmarkCase>> portions_of(std::vector<BenchmarkCase> c
   return portions;
 }
 
-/// Tells results of another build of the program from its own.
-std::string program_key() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  std::uint64_t h = 14695981039346656037ull;
-  for (std::array<char, 65536> part; program.read(part.data(), part.size()) || program.gcount() > 0;)
-    for (std::streamsize i = 0; i < program.gcount(); i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, part.data() + i, std::min<std::streamsize>(8, program.gcount() - i));
-      h = (h ^ word) * 1099511628211ull;
-    }
-  return std::to_string(h);
-}
-
 /// Adds lines "what was hidden : what was said" to the list of the folder.
 void note_failures(const std::filesystem::path& folder, const std::string& text) {
   int rank = 0;
@@ -254,10 +240,9 @@ std::vector<BenchResult> run_diagnosis_benchmark(long draws, const std::filesyst
 
   Workflow workflow;
   Progress progress("diagnoses", static_cast<double>(portions.size()), 0, rank);
-  const std::string program = program_key();
   std::vector<RunStore::Task> tasks;
   for (std::size_t p = 0; p < portions.size(); ++p) {
-    std::string key = program;
+    std::string key;
     for (const BenchmarkCase& one : portions[p]) key += "|" + std::to_string(one.draw);
     tasks.push_back({key, [&, p] {
                        std::vector<double> numbers;

@@ -20,8 +20,22 @@ int run(const CommandLine&, const std::vector<std::string>& arguments, std::ostr
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const Problem problem = read_problem(options.prm, options.overrides);
   const std::filesystem::path folder = options.output;
-  RunStore store(folder, MPI_COMM_WORLD);
-  const Diagnosis answer = diagnose(problem, store);  // every rank draws the same conclusions
+  const OtherBuilds others = read_other_builds(options.prm, options.overrides);
+  RunStore store(folder, MPI_COMM_WORLD, others);
+  if (rank == 0 && store.of_other_builds() > 0) {
+    out << store.of_other_builds() << " finished runs in " << folder.string()
+        << " were made by another build of the program; they are ";
+    if (others == OtherBuilds::use)
+      out << "used all the same." << std::endl;
+    else
+      out << "made again where they are needed. Where the two builds cannot differ in what these runs show:\n"
+             "  --set \"Runs of other builds=use\""
+          << std::endl;
+  }
+  Diagnosis answer = diagnose(problem, store);  // every rank draws the same conclusions
+  if (others == OtherBuilds::use && store.of_other_builds() > 0)
+    answer.remarks.push_back(std::to_string(store.of_other_builds()) +
+                             " remembered runs were made by another build of the program.");
   if (rank != 0) return exit_done;
   write_diagnosis(folder / "diagnosis.json", problem, answer);
   write_diagnosed_model(folder / (problem.name + ".diagnosed.prm"), problem, answer);

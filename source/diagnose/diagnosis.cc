@@ -23,10 +23,15 @@ std::vector<bool> usable_conditions(const ObservableModel& model, const Eigen::V
   std::vector<bool> usable(model.conditions().size(), true);
   for (std::size_t i = 0; i < model.points().size(); ++i)
     if (!std::isfinite(base[static_cast<Eigen::Index>(i)])) usable[model.points()[i].condition] = false;
-  for (std::size_t c = 0; c < usable.size(); ++c)
-    if (!usable[c])
-      answer.remarks.push_back("The run of the condition \"" + model.conditions()[c].name +
-                               "\" failed; it is left out: " + model.failures().front().status);
+  for (std::size_t c = 0; c < usable.size(); ++c) {
+    if (usable[c]) continue;
+    const std::string& name = model.conditions()[c].name;
+    const auto failure = std::find_if(
+        model.records().begin(), model.records().end(),
+        [&](const RunRecord& r) { return r.condition == name && r.overrides.empty() && r.status != "done"; });
+    answer.remarks.push_back("The run of the condition \"" + name + "\" failed; it is left out: " +
+                             (failure != model.records().end() ? failure->status : "a repetition failed"));
+  }
   return usable;
 }
 
@@ -272,7 +277,7 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
     answer.suggestion = suggest_experiment(problem, model, noise, tried, conclusion.rivals);
   conclusion.fill_explanations(tried, answer);
   conclusion.say(answer);
-  answer.failed_runs = model.failures();
+  answer.run_list = model.records();
   answer.runs = model.runs();
   answer.runs_computed = store.computed() - computed_before;
   return answer;

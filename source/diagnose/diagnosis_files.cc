@@ -83,11 +83,13 @@ void write_diagnosis(const std::filesystem::path& file, const Problem& problem, 
   all["conditions"] = gaps;
   all["remarks"] = answer.remarks;
   all["overrides"] = answer.overrides;
-  Json failed = Json::array();
-  for (const RunRecord& r : answer.failed_runs)
-    failed.push_back({{"condition", r.condition}, {"overrides", r.overrides}, {"status", r.status}});
-  all["failed_runs"] = failed;
-  all["runs"] = {{"asked", answer.runs}, {"computed", answer.runs_computed}};
+  Json runs = Json::array();
+  for (const RunRecord& r : answer.run_list)
+    runs.push_back(
+        {{"condition", r.condition}, {"command", r.command}, {"status", r.status}, {"seconds", r.seconds}});
+  all["runs"] = runs;
+  all["runs_asked"] = answer.runs;
+  all["runs_computed"] = answer.runs_computed;
   write_json(file, all);
 }
 

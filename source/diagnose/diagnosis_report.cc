@@ -170,15 +170,13 @@ void write_diagnosis_report(const std::filesystem::path& file, const Problem& pr
   add_places(answer, report);
   add_explanations(answer, report);
   add_before_and_after(problem, answer, report);
-  if (!answer.failed_runs.empty()) {
-    Table table{"Runs that failed", {"condition", "entries", "why"}};
-    for (const RunRecord& r : answer.failed_runs) {
-      std::string entries;
-      for (const std::string& text : r.overrides) entries += (entries.empty() ? "" : "; ") + text;
-      table.rows.push_back({r.condition, entries, r.status});
-    }
-    report.add(table);
+  Table failed{"Runs that failed", {"condition", "entries", "why"}};
+  for (const RunRecord& r : answer.run_list) {
+    std::string entries;
+    for (const std::string& text : r.overrides) entries += (entries.empty() ? "" : "; ") + text;
+    if (r.status != "done") failed.rows.push_back({r.condition, entries, r.status});
   }
+  if (!failed.rows.empty()) report.add(failed);
   report.write(file);
 }
 

@@ -183,19 +183,22 @@ const RunOutcome& ObservableModel::run(const Asked& asked, const PreparedRun::Ch
   if (!may_run(key)) return refusal;
   const RunOutcome& outcome =
       store.get(key, [&] { return asked.model.observe(changed, asked.values, store.comm()); });
-  if (!outcome.ok()) {
-    RunRecord record{asked.condition.name, {}, outcome.error, outcome.seconds};
-    for (const auto& [path, value] : changed) record.overrides.push_back(path + "=" + exact_text(value));
-    note_failure(record);
-  }
+  note(asked.condition, changed, outcome.error, outcome.seconds);
   return outcome;
 }
 
-void ObservableModel::note_failure(const RunRecord& record) {
-  const bool known = std::any_of(failed.begin(), failed.end(), [&](const RunRecord& r) {
-    return r.condition == record.condition && r.overrides == record.overrides;
-  });
-  if (!known) failed.push_back(record);
+void ObservableModel::note(const Condition& condition, const PreparedRun::Changes& changed,
+                           const std::string& error, double seconds) {
+  RunRecord record{
+      condition.name, "./seedflow run " + problem.prm, {}, error.empty() ? "done" : error, seconds};
+  const auto set = [&](const std::string& text) { record.command += " --set \"" + text + '"'; };
+  for (const std::string& text : condition.overrides) set(text);
+  for (const std::string& text : problem.overrides) set(text);
+  for (const auto& [path, value] : changed) {
+    record.overrides.push_back(path + "=" + exact_text(value));
+    set(record.overrides.back());
+  }
+  if (listed_commands.insert(record.command).second) run_list.push_back(record);
 }
 
 Eigen::VectorXd ObservableModel::predict(const Setting& setting) {
@@ -206,7 +209,7 @@ Eigen::VectorXd ObservableModel::predict(const Setting& setting) {
     bool ok = true;
     const Chosen model = chosen(setting, static_cast<int>(c));
     if (!model.model) {
-      note_failure({model.condition.name, model.condition.overrides, model.error, 0});
+      note(model.condition, {}, model.error, 0);
       continue;
     }
     for (const PreparedRun::Changes& changed : repeated(setting, static_cast<int>(c))) {

@@ -15,6 +15,16 @@ namespace seedflow {
 
 namespace {
 
+/// Overrides of the diagnosis itself, and those of the model.
+struct Overrides {
+  std::vector<std::string> own, model;
+  explicit Overrides(const std::vector<std::string>& all) {
+    for (const std::string& text : all)
+      (scan_override(text).sections.empty() && scan_override(text).name != "Experiment" ? own : model)
+          .push_back(text);
+  }
+};
+
 std::string trim(const std::string& s) {
   const auto a = s.find_first_not_of(" \t"), b = s.find_last_not_of(" \t");
   return a == std::string::npos ? "" : s.substr(a, b - a + 1);
@@ -64,6 +74,10 @@ void ProblemFile::declare(Parameters& p) {
   p.integer("Runs", runs, {1, 1e9, false}, "The most runs of single conditions.");
   p.integer("Repeats", repeats, Range::between(2, 1000),
             "Of every run with other random numbers, where repetitions of the experiment scatter.");
+  p.choice(
+      "Runs of other builds", other_builds, {"ignore", "use"},
+      "Finished runs in the output folder that another build of the program made: ignore makes them again, "
+      "use trusts them.");
   p.integer("Effects at once", largest_names, Range::between(1, 3), "The most effects to name together.");
 }
 
@@ -100,18 +114,15 @@ Problem read_problem(const std::string& file, const std::vector<std::string>& ov
   Parameters parameters;
   input.declare(parameters);
   Problem problem;
-  std::vector<std::string> own;
-  for (const std::string& text : overrides)
-    (scan_override(text).sections.empty() && scan_override(text).name != "Experiment" ? own
-                                                                                      : problem.overrides)
-        .push_back(text);
+  const Overrides split(overrides);
+  problem.overrides = split.model;
   if (const ParameterLine line = find_parameter_line(file, {}, "Experiment"); !line.name.empty())
     throw InputError(line.where + ": this is the parameter file of an experiment (" + line.value +
                      "). A diagnosis has a file of its own:\n  set Model        = " +
                      std::filesystem::path(file).filename().string() +
                      "\n  set Measurements = measurements.csv\n  set Conditions   = conditions.csv\n"
                      "doc/diagnosis.md tells what stands in the two; prm/diagnosis/ has examples.");
-  parameters.read(file, own);
+  parameters.read(file, split.own);
   for (const char* needed : {"Model", "Measurements", "Conditions"})
     if (parameters.value(needed).empty()) parameters.reject(needed, "it is missing", "name a file");
   problem.name = std::filesystem::path(file).stem().string();
@@ -124,6 +135,14 @@ Problem read_problem(const std::string& file, const std::vector<std::string>& ov
   for (const std::string& text : input.nuisances) problem.nuisances.push_back(read_nuisance(text));
   problem.budget = {input.runs, input.largest_names, input.repeats};
   return problem;
+}
+
+OtherBuilds read_other_builds(const std::string& file, const std::vector<std::string>& overrides) {
+  ProblemFile input;
+  Parameters parameters;
+  input.declare(parameters);
+  parameters.read(file, Overrides(overrides).own);
+  return input.other_builds == "use" ? OtherBuilds::use : OtherBuilds::ignore;
 }
 
 void describe_problem_file(std::ostream& out) {

@@ -1,7 +1,10 @@
 #include "seedflow/diagnose/run_store.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,13 +17,21 @@ namespace seedflow {
 
 namespace {
 
-std::string line_of(const std::string& key, const RunOutcome& outcome) {
-  const nlohmann::ordered_json record = {
-      {"key", key}, {"values", outcome.values}, {"error", outcome.error}, {"seconds", outcome.seconds}};
+std::string line_of(const std::string& key, const std::string& build, const RunOutcome& outcome) {
+  const nlohmann::ordered_json record = {{"key", key},
+                                         {"values", outcome.values},
+                                         {"error", outcome.error},
+                                         {"seconds", outcome.seconds},
+                                         {"build", build}};
   return record.dump() + "\n";
 }
 
-void read_lines(const std::string& text, std::unordered_map<std::string, RunOutcome>& outcomes) {
+struct Remembered {
+  std::unordered_map<std::string, RunOutcome> own, others;
+};
+
+Remembered read_lines(const std::string& text, const std::string& build) {
+  Remembered all;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const auto record = nlohmann::json::parse(line, nullptr, false);
@@ -29,8 +40,10 @@ void read_lines(const std::string& text, std::unordered_map<std::string, RunOutc
     outcome.values = record.value("values", std::vector<double>());
     outcome.error = record.value("error", std::string());
     outcome.seconds = record.value("seconds", 0.0);
-    outcomes[record["key"].get<std::string>()] = outcome;
+    (record.value("build", std::string()) == build ? all.own : all.others)[record["key"].get<std::string>()] =
+        outcome;
   }
+  return all;
 }
 
 /// The texts of all ranks, on all ranks.
@@ -48,7 +61,22 @@ std::string gathered(const std::string& mine, MPI_Comm comm) {
 
 }  // namespace
 
-RunStore::RunStore(const std::filesystem::path& folder, MPI_Comm comm) : ranks(comm) {
+std::string this_build() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  if (!program) throw RunError("The program cannot read its own file /proc/self/exe.");
+  std::uint64_t h = 14695981039346656037ull;  // FNV-1a, by words
+  for (std::array<char, 65536> part; program.read(part.data(), part.size()) || program.gcount() > 0;)
+    for (std::streamsize i = 0; i < program.gcount(); i += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, part.data() + i, std::min<std::streamsize>(8, program.gcount() - i));
+      h = (h ^ word) * 1099511628211ull;
+    }
+  return std::to_string(h);
+}
+
+RunStore::RunStore(const std::filesystem::path& folder, MPI_Comm comm, OtherBuilds others,
+                   const std::string& build)
+    : ranks(comm), build(build) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   std::string text;
@@ -61,7 +89,13 @@ RunStore::RunStore(const std::filesystem::path& folder, MPI_Comm comm) : ranks(c
         text += read_file(entry.path()) + "\n";
     }
   });
-  read_lines(gathered(text, comm), outcomes);
+  const Remembered all = read_lines(gathered(text, comm), build);
+  outcomes = all.own;
+  for (const auto& [key, outcome] : all.others) {
+    if (all.own.count(key)) continue;
+    ++n_other;
+    if (others == OtherBuilds::use) outcomes[key] = outcome;
+  }
   const std::filesystem::path path =
       folder / (rank == 0 ? "runs.jsonl" : "runs." + std::to_string(rank) + ".jsonl");
   together(comm, [&] {
@@ -90,7 +124,7 @@ RunOutcome RunStore::make(const std::string& key, const std::function<std::vecto
   if (!outcome.ok()) outcome.values.clear();
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (file) {
-    const std::string line = line_of(key, outcome);
+    const std::string line = line_of(key, build, outcome);
     if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size() || std::fflush(file.get()) != 0)
       throw RunError("The record of a run could not be written. Remedy: free the disk and start again.");
   }
@@ -119,7 +153,7 @@ void RunStore::share(const std::vector<Task>& tasks) {
     together(ranks, [&] {
       try {
         for (auto i = counter.next(); i < static_cast<long>(missing.size()); i = counter.next())
-          mine += line_of(missing[i]->key, make(missing[i]->key, missing[i]->run));
+          mine += line_of(missing[i]->key, build, make(missing[i]->key, missing[i]->run));
       } catch (const Interrupted&) {
         interrupted = 1;  // finished runs of the other ranks are in their files
       }
@@ -127,7 +161,7 @@ void RunStore::share(const std::vector<Task>& tasks) {
   }
   MPI_Allreduce(MPI_IN_PLACE, &interrupted, 1, MPI_INT, MPI_MAX, ranks);
   if (interrupted) throw Interrupted();
-  read_lines(gathered(mine, ranks), outcomes);
+  for (const auto& [key, outcome] : read_lines(gathered(mine, ranks), build).own) outcomes[key] = outcome;
   n_computed += static_cast<long>(missing.size());
 }
 

@@ -1,5 +1,7 @@
 #include "seedflow/experiment/measurements.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -8,6 +10,8 @@
 #include <tuple>
 
 #include "seedflow/base/error.h"
+#include "seedflow/base/units.h"
+#include "seedflow/experiment/csv_rows.h"
 #include "seedflow/output/folder.h"
 
 namespace seedflow {
@@ -19,34 +23,6 @@ std::string trim(const std::string& s) {
   return a == std::string::npos ? "" : s.substr(a, b - a + 1);
 }
 
-/// The rows of a CSV, comments and empty lines left out, each with its line number.
-struct Row {
-  int line;
-  std::vector<std::string> fields;
-};
-
-std::vector<Row> read_rows(const std::filesystem::path& file) {
-  std::istringstream text(read_file(file));
-  std::vector<Row> rows;
-  std::string line;
-  for (int number = 1; std::getline(text, line); ++number) {
-    line = trim(line);
-    if (line.empty() || line[0] == '#') continue;
-    Row row{number, {}};
-    std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) row.fields.push_back(trim(field));
-    if (line.back() == ',') row.fields.push_back("");
-    rows.push_back(row);
-  }
-  if (rows.empty()) throw InputError(file.string() + ": the file is empty.");
-  for (const Row& row : rows)
-    if (row.fields.size() != rows[0].fields.size())
-      throw InputError(file.string() + ":" + std::to_string(row.line) + ": " +
-                       std::to_string(row.fields.size()) + " fields, but the header has " +
-                       std::to_string(rows[0].fields.size()) + ".");
-  return rows;
-}
-
 double to_number(const std::string& text, const std::string& where, const std::string& what) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -55,9 +31,30 @@ double to_number(const std::string& text, const std::string& where, const std::s
   return value;
 }
 
-}  // namespace
+/// A number in the unit of the value, or "2 %" of the value.
+double to_uncertainty(const std::string& text, double value, const std::string& where) {
+  const bool percent = !text.empty() && text.back() == '%';
+  const double number =
+      to_number(trim(percent ? text.substr(0, text.size() - 1) : text), where, "the standard uncertainty");
+  const double uncertainty = percent ? 0.01 * number * std::abs(value) : number;
+  if (!(uncertainty > 0))
+    throw InputError(where + ": the standard uncertainty " + text +
+                     (percent ? " of " + exact_text(value) : "") +
+                     " must be positive. If it is not known, estimate it; zero would mean a perfect "
+                     "measurement.");
+  return uncertainty;
+}
 
-namespace {
+/// held_out; nothing means no.
+bool is_yes(std::string text, const std::string& where) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (text == "yes" || text == "true") return true;
+  if (text.empty() || text == "no" || text == "false") return false;
+  throw InputError(where + ": held_out must be yes or no, not \"" + text + "\".");
+}
+
+const std::vector<std::string> names = {
+    "condition", "quantity", "unit", "coordinate", "coordinate_unit", "value", "standard_uncertainty"};
 
 /// What a line `# correlated,...` says.
 struct CorrelatedPart {
@@ -74,9 +71,7 @@ std::vector<CorrelatedPart> read_correlated_parts(const std::filesystem::path& f
     line = trim(line);
     if (line.empty() || line[0] != '#' || trim(line.substr(1)).compare(0, 11, "correlated,") != 0) continue;
     const std::string where = file.string() + ":" + std::to_string(number);
-    std::vector<std::string> f;
-    std::istringstream fields(trim(line.substr(1)));
-    for (std::string field; std::getline(fields, field, ',');) f.push_back(trim(field));
+    const std::vector<std::string> f = csv_fields(trim(line.substr(1)), where);
     if (f.size() != 6)
       throw InputError(where +
                        ": write # correlated,QUANTITY,UNIT,UNCERTAINTY,COORDINATE_UNIT,LENGTH, for example # "
@@ -113,38 +108,45 @@ void add_correlated_parts(const std::vector<CorrelatedPart>& parts, const std::f
 }  // namespace
 
 std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
-  const std::vector<Row> rows = read_rows(file);
-  const std::vector<std::string> header = {
-      "condition", "quantity", "unit", "coordinate", "coordinate_unit", "value", "standard_uncertainty"};
-  if (rows[0].fields != header)
-    throw InputError(file.string() + ":" + std::to_string(rows[0].line) +
-                     ": the header must be condition,quantity,unit,coordinate,coordinate_unit,value,"
-                     "standard_uncertainty.");
-  if (rows.size() == 1) throw InputError(file.string() + ": there is no measurement below the header.");
+  const CsvRows csv(file);
+  const std::string head = csv.where(csv.header().line);
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ",") + name;
+  for (const std::string& name : names) {
+    const bool may_lack = name.rfind("coordinate", 0) == 0;
+    if (csv.column(name) < 0 && !may_lack)
+      throw InputError(head + ": the column \"" + name + "\" is missing. The columns are " + all + ".");
+  }
+  for (const std::string& name : csv.header().fields)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(head + ": there is no column \"" + name + "\". The columns are " + all + ".");
+  if (csv.rows().empty()) throw InputError(file.string() + ": there is no measurement below the header.");
   std::vector<Measurement> result;
   std::set<std::tuple<std::string, std::string, double, double>> seen;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto& f = rows[i].fields;
-    const std::string where = file.string() + ":" + std::to_string(rows[i].line);
+  for (const CsvRows::Row& row : csv.rows()) {
+    const std::string where = csv.where(row.line);
+    const auto field = [&](const char* name) {
+      const int c = csv.column(name);
+      return c < 0 ? std::string() : row.fields[c];
+    };
     Measurement m;
-    m.condition = f[0], m.quantity = f[1], m.unit = f[2], m.coordinate_unit = f[4], m.line = rows[i].line;
+    m.condition = field("condition"), m.quantity = field("quantity"), m.unit = field("unit");
+    m.coordinate_unit = field("coordinate_unit"), m.line = row.line;
     m.coordinate = std::numeric_limits<double>::quiet_NaN();
-    for (const int needed : {0, 1})
-      if (f[needed].empty()) throw InputError(where + ": the " + header[needed] + " is missing.");
-    if (f[2].empty()) throw InputError(where + ": " + f[1] + " has no unit. Write 1 for a pure number.");
-    if (f[3].empty() != f[4].empty())
+    for (const char* needed : {"condition", "quantity"})
+      if (field(needed).empty()) throw InputError(where + ": the " + needed + " is missing.");
+    if (m.unit.empty())
+      throw InputError(where + ": " + m.quantity + " has no unit. Write 1 for a pure number.");
+    const std::string coordinate = field("coordinate");
+    if (coordinate.empty() != m.coordinate_unit.empty())
       throw InputError(where + ": " +
-                       (f[3].empty() ? "the coordinate is missing, but its unit is given."
-                                     : "the coordinate has no unit. Write 1 for a pure number."));
-    if (!f[3].empty()) m.coordinate = to_number(f[3], where, "the coordinate");
-    m.value = to_number(f[5], where, "the value");
-    m.standard_uncertainty = to_number(f[6], where, "the standard uncertainty");
-    if (!(m.standard_uncertainty > 0))
-      throw InputError(
-          where + ": the standard uncertainty " + f[6] +
-          " must be positive. If it is not known, estimate it; zero would mean a perfect measurement.");
-    const double place = f[3].empty() ? 0.0 : m.coordinate;
-    if (!seen.insert({f[0], f[1], place, m.value}).second)
+                       (coordinate.empty() ? "the coordinate is missing, but its unit is given."
+                                           : "the coordinate has no unit. Write 1 for a pure number."));
+    if (!coordinate.empty()) m.coordinate = to_number(coordinate, where, "the coordinate");
+    m.value = to_number(field("value"), where, "the value");
+    m.standard_uncertainty = to_uncertainty(field("standard_uncertainty"), m.value, where);
+    const double place = coordinate.empty() ? 0.0 : m.coordinate;
+    if (!seen.insert({m.condition, m.quantity, place, m.value}).second)
       throw InputError(where + ": this point stands in the file twice.");
     result.push_back(m);
   }
@@ -153,34 +155,40 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
 }
 
 std::vector<Condition> read_conditions(const std::filesystem::path& file) {
-  const std::vector<Row> rows = read_rows(file);
-  const std::vector<std::string>& header = rows[0].fields;
-  const std::string head = file.string() + ":" + std::to_string(rows[0].line);
-  if (header.size() < 2 || header[0] != "condition" || header[1] != "held_out")
-    throw InputError(head + ": the header must begin with condition,held_out.");
-  std::vector<std::string> path, unit;
-  for (std::size_t c = 2; c < header.size(); ++c) {
-    const auto open = header[c].rfind('[');
-    if (open == std::string::npos || header[c].back() != ']')
-      throw InputError(head + ": column \"" + header[c] +
+  const CsvRows csv(file);
+  const std::string head = csv.where(csv.header().line);
+  const int name = csv.column("condition"), held_out = csv.column("held_out");
+  if (name < 0)
+    throw InputError(head +
+                     ": the column \"condition\" is missing. The header is condition,held_out and one "
+                     "column per entry that differs, as in Seeds/Diameter [mm].");
+  struct Entry {
+    std::size_t column;
+    std::string path, unit;
+  };
+  std::vector<Entry> entries;
+  for (std::size_t c = 0; c < csv.header().fields.size(); ++c) {
+    if (static_cast<int>(c) == name || static_cast<int>(c) == held_out) continue;
+    const std::string& text = csv.header().fields[c];
+    const auto open = text.rfind('[');
+    if (open == std::string::npos || text.back() != ']')
+      throw InputError(head + ": column \"" + text +
                        "\" has no unit. Write it in brackets, as in Air/Density [kg/m3]; [1] for none.");
-    path.push_back(trim(header[c].substr(0, open)));
-    unit.push_back(header[c].substr(open + 1, header[c].size() - open - 2));
+    const std::string unit = trim(text.substr(open + 1, text.size() - open - 2));
+    entries.push_back({c, trim(text.substr(0, open)), unit == "1" || unit == "-" ? "" : " " + unit});
   }
-  if (rows.size() == 1) throw InputError(file.string() + ": there is no condition below the header.");
+  if (csv.rows().empty()) throw InputError(file.string() + ": there is no condition below the header.");
   std::vector<Condition> result;
   std::set<std::string> seen;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto& f = rows[i].fields;
-    const std::string where = file.string() + ":" + std::to_string(rows[i].line);
-    if (f[0].empty()) throw InputError(where + ": the name of the condition is missing.");
-    if (f[1] != "yes" && f[1] != "no")
-      throw InputError(where + ": held_out must be yes or no, not \"" + f[1] + "\".");
-    if (!seen.insert(f[0]).second)
-      throw InputError(where + ": the condition \"" + f[0] + "\" stands here twice.");
-    Condition condition{f[0], f[1] == "yes", {}};
-    for (std::size_t c = 0; c < path.size(); ++c)
-      condition.overrides.push_back(path[c] + "=" + f[c + 2] + (unit[c] == "1" ? "" : " " + unit[c]));
+  for (const CsvRows::Row& row : csv.rows()) {
+    const std::string where = csv.where(row.line);
+    if (row.fields[name].empty()) throw InputError(where + ": the name of the condition is missing.");
+    if (!seen.insert(row.fields[name]).second)
+      throw InputError(where + ": the condition \"" + row.fields[name] + "\" stands here twice.");
+    Condition condition{row.fields[name], held_out >= 0 && is_yes(row.fields[held_out], where), {}};
+    for (const Entry& e : entries)
+      if (!row.fields[e.column].empty())
+        condition.overrides.push_back(e.path + "=" + row.fields[e.column] + e.unit);
     result.push_back(condition);
   }
   return result;

@@ -48,6 +48,12 @@ TEST(Units, OtherFactors) {
   EXPECT_DOUBLE_EQ(to_si("36 km/h", "m/s"), 10);
   EXPECT_DOUBLE_EQ(to_si("6 L/min", "m3/s"), 1e-4);
   EXPECT_DOUBLE_EQ(to_si("20 degC", "K"), 293.15);
+  EXPECT_DOUBLE_EQ(to_si("20 \xC2\xB0"
+                         "C",
+                         "K"),
+                   293.15);
+  EXPECT_DOUBLE_EQ(to_si("180 \xC2\xB0", "rad"), to_si("180 deg", "rad"));
+  EXPECT_DOUBLE_EQ(to_si("3 -", "1"), 3);
   EXPECT_DOUBLE_EQ(to_si("3 N m/deg", "N m/rad"), 3 * 180 / pi);
 }
 

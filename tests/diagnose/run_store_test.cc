@@ -32,6 +32,29 @@ TEST(RunStore, AFinishedRunIsNeverRepeated) {
   EXPECT_EQ(again.computed(), 0);
 }
 
+TEST(RunStore, RunsOfAnotherBuildAreUsedOnlyIfAskedFor) {
+  const auto folder = fresh_folder("run_store_builds");
+  const auto gives = [](double value) { return [value] { return std::vector<double>{value}; }; };
+  {
+    RunStore store(folder, MPI_COMM_SELF, OtherBuilds::ignore, "old");
+    store.get("a", gives(1)), store.get("b", gives(2));
+  }
+  {
+    RunStore store(folder, MPI_COMM_SELF, OtherBuilds::use, "new");
+    EXPECT_EQ(store.of_other_builds(), 2);
+    EXPECT_EQ(store.get("b", gives(3)).values[0], 2);
+  }
+  {
+    RunStore store(folder, MPI_COMM_SELF, OtherBuilds::ignore, "new");
+    EXPECT_EQ(store.of_other_builds(), 2);
+    EXPECT_FALSE(store.remembers("a"));
+    EXPECT_EQ(store.get("a", gives(4)).values[0], 4);
+  }
+  RunStore store(folder, MPI_COMM_SELF, OtherBuilds::use, "new");
+  EXPECT_EQ(store.of_other_builds(), 1);
+  EXPECT_EQ(store.get("a", gives(5)).values[0], 4);
+}
+
 TEST(RunStoreMpi, SharedRunsAreMadeOnceAndKnownToAll) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -73,9 +73,40 @@ TEST_F(MeasurementsTest, Malformed) {
   EXPECT_EQ(measurements(""), ": there is no measurement below the header.");
   EXPECT_EQ(error_of(read_measurements, "# nothing\n"), ": the file is empty.");
   EXPECT_EQ(error_of(read_measurements, "condition,value\na,1\n"),
-            ":1: the header must be "
+            ":1: the column \"quantity\" is missing. The columns are "
             "condition,quantity,unit,coordinate,coordinate_unit,value,standard_uncertainty.");
+  EXPECT_NE(error_of(read_measurements, "condition;value\na;1,5\n").find("separated by semicolons"),
+            std::string::npos);
+  EXPECT_NE(
+      measurements("a,v,m/s,1,s,0,2 %\n").find(":2: the standard uncertainty 2 % of 0 must be positive."),
+      std::string::npos);
+  EXPECT_EQ(measurements("\"a,v,m/s,1,s,2,0.1\n"), ":2: a quotation mark is not closed.");
   EXPECT_THROW(read_measurements(folder / "none.csv"), InputError);
+}
+
+// As a spreadsheet may write them.
+TEST_F(MeasurementsTest, OtherOrderQuotesPercentagesEmptyColumnsByteOrderMark) {
+  const auto all =
+      read_measurements(write("data.csv",
+                              "\xEF\xBB\xBFvalue,standard_uncertainty,quantity,unit,condition,,\r\n"
+                              "-20,2.5 %,angle of repose,\xC2\xB0,\"thin, slow\",,\r\n"
+                              ",,,,,,\r\n"
+                              "3,0.1,angle of repose,deg,\"a \"\"b\"\"\",,\r\n"));
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].condition, "thin, slow");
+  EXPECT_EQ(all[0].value, -20);
+  EXPECT_DOUBLE_EQ(all[0].standard_uncertainty, 0.5);
+  EXPECT_TRUE(std::isnan(all[0].coordinate));
+  EXPECT_EQ(all[1].condition, "a \"b\"");
+  EXPECT_EQ(all[1].line, 4);
+  const auto conditions = read_conditions(write(
+      "data.csv", "Air/Density [kg/m3],Seeds/Sub-spheres [-],condition\n970,1,thin\n,36,\"thick, slow\"\n"));
+  ASSERT_EQ(conditions.size(), 2u);
+  EXPECT_FALSE(conditions[0].held_out);
+  EXPECT_EQ(conditions[0].overrides,
+            (std::vector<std::string>{"Air/Density=970 kg/m3", "Seeds/Sub-spheres=1"}));
+  EXPECT_EQ(conditions[1].name, "thick, slow");
+  EXPECT_EQ(conditions[1].overrides, (std::vector<std::string>{"Seeds/Sub-spheres=36"}));
 }
 
 TEST_F(MeasurementsTest, ConditionsAreOverrides) {
@@ -90,7 +121,10 @@ TEST_F(MeasurementsTest, ConditionsAreOverrides) {
 }
 
 TEST_F(MeasurementsTest, MalformedConditions) {
-  EXPECT_EQ(conditions("name,held_out\na,no\n"), ":1: the header must begin with condition,held_out.");
+  EXPECT_EQ(conditions("name,held_out\na,no\n"),
+            ":1: the column \"condition\" is missing. The header is condition,held_out and one column per "
+            "entry that "
+            "differs, as in Seeds/Diameter [mm].");
   EXPECT_EQ(conditions("condition,held_out,Air/Density\na,no,1\n"),
             ":1: column \"Air/Density\" has no unit. Write it in brackets, as in Air/Density [kg/m3]; [1] "
             "for none.");

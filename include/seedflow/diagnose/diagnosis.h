@@ -119,8 +119,9 @@ struct InferredLaw {
 
 struct RunRecord {
   std::string condition;
-  std::vector<std::string> overrides;
-  std::string status;  ///< "done", or why it failed
+  std::string command;                 ///< that makes the run by itself
+  std::vector<std::string> overrides;  ///< what it has besides the condition's
+  std::string status;                  ///< "done", or why it failed
   double seconds = 0;
 };
 
@@ -142,8 +143,8 @@ struct Diagnosis {
   std::vector<std::string> overrides;  ///< what turns the base .prm into the diagnosed one
   double noise_scale = 1;              ///< scatter of the data over the stated uncertainty
   double explained = 0;                ///< share of the gap that the verdict explains
-  std::vector<RunRecord> failed_runs;
-  long runs = 0, runs_computed = 0;  ///< asked for; computed now and not remembered
+  std::vector<RunRecord> run_list;     ///< every run
+  long runs = 0, runs_computed = 0;    ///< asked for; computed now and not remembered
   /// Values at all measured points: before, and after with everything fitted.
   std::vector<double> before, after;
   std::vector<double> unit_scale;  ///< SI value over value in the unit of the measurement, per point

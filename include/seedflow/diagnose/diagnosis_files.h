@@ -7,7 +7,7 @@
 namespace seedflow {
 
 /// diagnosis.json: verdict, sentence, effects with amplitudes, explanations with posteriors, places, gaps per
-/// condition, suggested experiment, inferred law, remarks, failed runs.
+/// condition, suggested experiment, inferred law, remarks, every run with its command and status.
 void write_diagnosis(const std::filesystem::path& file, const Problem& problem, const Diagnosis& answer);
 
 /// report.html: the answer in a sentence; where; the candidates and why each lost; before and after; what to

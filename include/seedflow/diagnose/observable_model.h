@@ -84,7 +84,8 @@ class ObservableModel {
   /// Entries of a setting that are no numbers, "PATH=VALUE".
   std::vector<std::string> choices(const Setting& setting) const;
 
-  const std::vector<RunRecord>& failures() const { return failed; }
+  /// Every run that was asked for and not refused, once, with its command and what became of it.
+  const std::vector<RunRecord>& records() const { return run_list; }
   long runs() const { return n_runs; }
 
  private:
@@ -112,7 +113,8 @@ class ObservableModel {
   /// The changes of a setting under one condition, once per repeat.
   std::vector<PreparedRun::Changes> repeated(const Setting& setting, int condition) const;
   bool may_run(const std::string& key);
-  void note_failure(const RunRecord& record);
+  void note(const Condition& condition, const PreparedRun::Changes& changes, const std::string& error,
+            double seconds);
 
   const Problem& problem;
   RunStore& store;
@@ -127,7 +129,8 @@ class ObservableModel {
   std::vector<Nuisance> all_nuisances;
   std::vector<UncertainInput> errors;
   std::string step_path;
-  std::vector<RunRecord> failed;
+  std::vector<RunRecord> run_list;
+  std::unordered_set<std::string> listed_commands;
   int series_count = 0;
   int n_repeats = 1;
   long n_runs = 0, allowed = 0;

@@ -22,15 +22,23 @@ struct RunOutcome {
   bool ok() const { return error.empty(); }
 };
 
+/// Tells this build of the program from others: a hash of the running executable.
+std::string this_build();
+
+/// Runs that another build of the program made.
+enum class OtherBuilds { ignore, use };
+
 /// Remembers every run, so that none is made twice: in memory, and in a file of the given folder, from which
 /// an interrupted diagnosis goes on. The file holds one line per finished run (JSON: key, values, error,
-/// seconds); a line cut off by a killed process is ignored.
+/// build, seconds); a line cut off by a killed process is ignored, and so are runs of another build of the
+/// program, unless they are asked for.
 class RunStore {
  public:
   RunStore() = default;
   /// All ranks remember; the first one reads the files, every rank writes one of its own (runs.jsonl,
   /// runs.1.jsonl, ...). Collective. Errors: InputError if the folder cannot be written.
-  explicit RunStore(const std::filesystem::path& folder, MPI_Comm comm = MPI_COMM_SELF);
+  explicit RunStore(const std::filesystem::path& folder, MPI_Comm comm = MPI_COMM_SELF,
+                    OtherBuilds others = OtherBuilds::ignore, const std::string& build = this_build());
   ~RunStore();
   RunStore(const RunStore&) = delete;
   RunStore& operator=(const RunStore&) = delete;
@@ -53,6 +61,8 @@ class RunStore {
   /// Models made ready, by file content and overrides.
   const PreparedRun& prepared(const std::string& key, const std::function<PreparedRun()>& prepare);
 
+  /// Remembered runs in the files that only another build has made, used or not.
+  long of_other_builds() const { return n_other; }
   long computed() const { return n_computed; }
   std::size_t size() const { return outcomes.size(); }
 
@@ -66,7 +76,8 @@ class RunStore {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
   std::unique_ptr<std::FILE, Close> file;
-  long n_computed = 0;
+  std::string build;
+  long n_computed = 0, n_other = 0;
 };
 
 }  // namespace seedflow

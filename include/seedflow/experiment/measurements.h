@@ -26,15 +26,18 @@ struct Condition {
   std::vector<std::string> overrides;  ///< "Section/Entry=value unit"
 };
 
-/// Reads `condition,quantity,unit,coordinate,coordinate_unit,value,standard_uncertainty`; lines that begin
-/// with # are comments. A comment `# correlated,QUANTITY,UNIT,UNCERTAINTY,COORDINATE_UNIT,LENGTH` gives all
-/// values of a quantity a further standard uncertainty that neighbours share, with correlation
-/// exp(-distance/LENGTH); LENGTH may be inf. Errors: InputError with file and line for a missing column, a
-/// number that is none, not finite, a missing unit, an uncertainty that is not positive, a point given twice.
+/// Reads `condition,quantity,unit,coordinate,coordinate_unit,value,standard_uncertainty`, in any order; see
+/// CsvRows. The columns of the coordinate may be missing where no quantity has one. An uncertainty may be
+/// written as a percentage of the value, "2 %". A comment `#
+/// correlated,QUANTITY,UNIT,UNCERTAINTY,COORDINATE_UNIT,LENGTH` gives all values of a quantity a further
+/// standard uncertainty that neighbours share, with correlation exp(-distance/LENGTH); LENGTH may be inf.
+/// Errors: InputError with file and line for a missing column, a number that is none, not finite, a missing
+/// unit, an uncertainty that is not positive, a point given twice.
 std::vector<Measurement> read_measurements(const std::filesystem::path& file);
 
 /// Reads `condition,held_out,` and one column per entry that differs, named `Section/Entry [unit]`; held_out
-/// is yes or no. Errors: InputError with file and line.
+/// is yes or no, and no if missing. Where a field is empty, the entry stays as in the base .prm. Errors:
+/// InputError with file and line.
 std::vector<Condition> read_conditions(const std::filesystem::path& file);
 
 }  // namespace seedflow
