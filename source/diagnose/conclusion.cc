@@ -302,6 +302,7 @@ void Conclusion::fill_gaps(const Tried* winner, Diagnosis& answer) const {
 }
 
 void Conclusion::fill_explanations(const std::vector<Tried>& tried, Diagnosis& answer) const {
+  const bool outside = answer.verdict == Verdict::not_in_catalogue;
   double sum = 0, top = -1e300;
   for (const Tried& t : tried)
     if (t.trained.possible && believable(t.trained)) top = std::max(top, t.total());
@@ -329,8 +330,10 @@ void Conclusion::fill_explanations(const std::vector<Tried>& tried, Diagnosis& a
            {w.amplitude[i], w.amplitude[i] - 1.96 * w.deviation[i], w.amplitude[i] + 1.96 * w.deviation[i]}});
     if (!believable(w))
       e.why_lost = "its fitted amplitude is not that of the published effect";
-    else if (t.total() < top - 1e-9 && leaves_a_rest(w))
+    else if ((t.total() < top - 1e-9 || outside) && leaves_a_rest(w))
       e.why_lost = rest_in_words(w);
+    else if (outside)
+      e.why_lost = "a law outside the catalogue is more probable";
     else if (t.total() < top - 1e-9)
       e.why_lost = "less probable by a factor of e^" + rounded(top - t.total(), 3);
     answer.explanations.push_back(e);
@@ -380,7 +383,8 @@ void Conclusion::say(Diagnosis& answer) const {
       break;
     case Verdict::not_in_catalogue:
       text << "Something is missing that is not in the catalogue.";
-      if (answer.law.found) text << " Inferred law: " << answer.law.text << ".";
+      if (answer.law.found)
+        text << " Inferred law, which explains " << share() << " of the gap: " << answer.law.text << ".";
       break;
     case Verdict::input_uncertain:
       text << "An input is off: " << answer.input << ", by " << rounded(answer.input_value.value)

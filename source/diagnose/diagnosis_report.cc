@@ -18,6 +18,10 @@ std::string name_of(const Explanation& e) {
   return text;
 }
 
+std::string in_words(const Place& place) {
+  return place.axis == "condition" ? place.bin : place.axis + " " + place.bin;
+}
+
 void add_places(const Diagnosis& answer, Report& report) {
   report.heading("Where measured and simulated values differ");
   Table table{"Places, the most striking first",
@@ -27,9 +31,7 @@ void add_places(const Diagnosis& answer, Report& report) {
   for (std::size_t i = 0; i < std::min<std::size_t>(answer.places.size(), 10); ++i) {
     const Place& p = answer.places[i];
     table.rows.push_back({p.axis, p.bin, Table::number(p.statistic, 3), Table::number(p.p_value, 2)});
-    if (i < 6)
-      plot.groups.push_back(p.axis == "condition" ? p.bin : p.axis + " " + p.bin),
-          bars.values.push_back(p.statistic);
+    if (i < 6) plot.groups.push_back(in_words(p)), bars.values.push_back(p.statistic);
   }
   if (answer.places.empty()) {
     report.paragraph("There is one bin only.");
@@ -37,7 +39,14 @@ void add_places(const Diagnosis& answer, Report& report) {
   }
   plot.series.push_back(bars);
   plot.caption = "How much the squared differences in a bin exceed what the uncertainties allow.";
+  report.paragraph(answer.places[0].p_value < 0.05
+                       ? "They differ most at " + in_words(answer.places[0]) + "."
+                       : "No place stands out against the others: where they differ, they do so everywhere.");
   report.add(plot);
+  table.note =
+      "p: how often chance alone would make some place stand out as much against the others; near 1 where "
+      "all "
+      "places are alike.";
   report.add(table);
 }
 
@@ -64,7 +73,9 @@ void add_explanations(const Diagnosis& answer, Report& report) {
     }
   }
   table.note =
-      "Log evidence includes the price of naming one effect out of many. chi2/n counts the uncertainty of "
+      "Probability: among the explanations of this table. Log evidence includes the price of naming one "
+      "effect "
+      "out of many. chi2/n counts the uncertainty of "
       "inputs, fit and numerics.";
   plot.series.push_back(bars);
   plot.caption = "Every unit is a factor of e in probability.";
@@ -77,8 +88,29 @@ void add_explanations(const Diagnosis& answer, Report& report) {
   }
 }
 
+/// Disagreement of every condition, training first.
+void add_gaps(const Diagnosis& answer, Report& report) {
+  constexpr std::size_t most = 16;
+  const bool changed = !answer.effects.empty() || !answer.input.empty() || answer.law.found;
+  BarPlot plot{"Disagreement by condition", {}, {"rms difference", "standard deviations"}};
+  BarSeries before{"before", {}}, after{"after", {}};
+  for (const bool held_out : {false, true})
+    for (const Gap& g : answer.gaps) {
+      if (g.held_out != held_out || g.points == 0 || plot.groups.size() == most) continue;
+      plot.groups.push_back(g.condition + (held_out ? ", never seen" : ""));
+      before.values.push_back(g.deviation_before), after.values.push_back(g.deviation_after);
+    }
+  if (plot.groups.empty()) return;
+  plot.series = {before};
+  if (changed) plot.series.push_back(after);
+  plot.horizontal = {{1, "what the uncertainties allow"}};
+  plot.caption = "Standard deviations of measurement and inputs together; about 1 or less is agreement.";
+  report.add(plot);
+}
+
 void add_before_and_after(const Problem& problem, const Diagnosis& answer, Report& report) {
   report.heading("Before and after");
+  add_gaps(answer, report);
   for (const bool held_out : {false, true}) {
     Table table{held_out ? "Conditions never seen" : "Training conditions",
                 {"condition", "points", "chi2/n before", "chi2/n after", "deviation before [sd]",
@@ -171,12 +203,22 @@ void write_diagnosis_report(const std::filesystem::path& file, const Problem& pr
   add_explanations(answer, report);
   add_before_and_after(problem, answer, report);
   Table failed{"Runs that failed", {"condition", "entries", "why"}};
+  int of_laws = 0;
   for (const RunRecord& r : answer.run_list) {
+    if (r.status == "done") continue;
     std::string entries;
     for (const std::string& text : r.overrides) entries += (entries.empty() ? "" : "; ") + text;
-    if (r.status != "done") failed.rows.push_back({r.condition, entries, r.status});
+    if (entries.find("Effects/Inferred law/") != std::string::npos)
+      ++of_laws;
+    else
+      failed.rows.push_back({r.condition, entries, r.status});
   }
   if (!failed.rows.empty()) report.add(failed);
+  report.paragraph("diagnosis.json lists all " + std::to_string(answer.run_list.size()) +
+                   " runs, each with the command that makes it" +
+                   (of_laws > 0 ? "; " + std::to_string(of_laws) +
+                                      " with laws on trial did not go through, which rules those laws out."
+                                : "."));
   report.write(file);
 }
 

@@ -22,6 +22,26 @@ std::string short_text(double value) {
   return text;
 }
 
+/// "force along the slip = 0.4 (Reynolds number/10)^0.75 x drag, exponent between 0.56 and 0.94 (95 %)"
+std::string in_words(const LawSearch::Refined& refined, const LawSearch& search) {
+  const Law& law = refined.law;
+  std::string product = short_text(law.coefficient), intervals;
+  std::size_t i = 1;
+  for (int g = 0; g < Law::n_groups; ++g) {
+    if (!law.has[g]) continue;
+    const double e = law.exponent[g], se = 1.96 * refined.deviation[i++];
+    product +=
+        std::string(" (") + Law::groups[g] + "/" + short_text(search.reference(g)) + ")^" + short_text(e);
+    intervals += (intervals.empty() ? ", exponent between " : " and between ") + short_text(e - se) +
+                 " and " + short_text(e + se);
+  }
+  return law.force_in_words() + " = " + product + " x " + law.reference() + intervals +
+         (intervals.empty() ? "" : " (95 %)");
+}
+
+/// A law that leaves more of the excess of chi-square is not worth adding.
+constexpr double least_share_left = 0.5;
+
 }  // namespace
 
 InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& weighing,
@@ -58,22 +78,26 @@ InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& we
     if (!refined.deviation.empty() && score > best_score) best_score = score, best = refined;
   }
   if (best_score <= -1e300) return found;
+  const std::string text = in_words(best, search);
+  const double excess = search.chi2_of_nothing() - best.points;
+  if (best.chi2 - best.points > least_share_left * excess) {
+    answer.remarks.push_back(
+        "No law of the library describes what is missing. The nearest is not added: " + text + ".");
+    return found;
+  }
 
   const Setting setting = search.setting(best.law);
   found.found = true;
   found.direction = Law::directions[best.law.direction];
   const double c = best.law.coefficient, s = 1.96 * best.deviation[0];
   found.coefficient = {c, c - s, c + s};
-  std::string product = short_text(c);
   std::size_t i = 1;
   for (int g = 0; g < Law::n_groups; ++g) {
     if (!best.law.has[g]) continue;
     const double e = best.law.exponent[g], se = 1.96 * best.deviation[i++];
     found.factors.push_back({Law::groups[g], {e, e - se, e + se}});
-    product += std::string(" (") + Law::groups[g] + "/" + short_text(search.reference(g)) + ")^" +
-               short_text(e) + " (" + short_text(e - se) + " to " + short_text(e + se) + ")";
   }
-  found.text = std::string("force along ") + found.direction + " = " + product + " x " + best.law.reference();
+  found.text = text;
   const Eigen::VectorXd after = model.predict(setting);
   answer.after.assign(after.data(), after.data() + after.size());
   for (const auto& [path, value] : setting.entries)

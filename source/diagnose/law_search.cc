@@ -30,6 +30,21 @@ std::string Law::reference() const {
   return name.rfind("Trap", 0) == 0 ? "weight per diameter of distance" : "weight";
 }
 
+std::string Law::force_in_words() const {
+  static const char* const words[n_directions] = {
+      "force along the slip",
+      "force along gravity",
+      "force along x",
+      "force along y",
+      "force along z",
+      "lift by spin",
+      "lift by shear",
+      "force along x that grows with the distance from the origin",
+      "force along y that grows with the distance from the origin",
+      "force along z that grows with the distance from the origin"};
+  return words[direction];
+}
+
 double Law::price() const {
   // A force fixed in space breaks the symmetry of the flow; it is less likely before anything is seen.
   static const double of_direction[n_directions] = {0, 1, 3, 3, 3, 0, 0, 4, 4, 4};
@@ -37,6 +52,13 @@ double Law::price() const {
   for (const bool one : has)
     if (one) sum += std::log(static_cast<double>(n_groups));
   return sum;
+}
+
+double Law::log_prior() const {
+  double sum = std::pow(coefficient / coefficient_deviation, 2);
+  for (int g = 0; g < n_groups; ++g)
+    if (has[g]) sum += std::pow(exponent[g] / exponent_deviation, 2);
+  return -0.5 * sum;
 }
 
 bool LawSearch::possible(const ObservableModel& model) {
@@ -182,66 +204,79 @@ void LawSearch::Screened::take(double log_evidence, const NoiseVariant& variant,
   law.coefficient = coefficient;
 }
 
-LawSearch::Refined LawSearch::refine(Law law) {
+LawSearch::Refined LawSearch::refine(const Law& start) {
   Refined best;
-  double step_limit = 1;
-  Law trial = law;
-  for (int iteration = 0; iteration < 10; ++iteration) {
+  Law law = start;
+  std::vector<double> step;  // of the coefficient and the exponents
+  double share = 1, reached = -1e300;
+  const auto stepped = [&] {
+    Law to = law;
+    to.coefficient += share * step[0];
+    std::size_t i = 1;
+    for (int g = 0; g < Law::n_groups; ++g)
+      if (to.has[g]) to.exponent[g] = std::clamp(to.exponent[g] + share * step[i++], -4.0, 4.0);
+    return to;
+  };
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const Law trial = step.empty() ? start : stepped();
+    const Eigen::VectorXd now = model.predict(setting(trial));
+    // Gauss-Newton steps that the simulation does not confirm are shortened.
+    const LinearFit fixed =
+        now.allFinite() ? evaluate(now, Eigen::MatrixXd(now.size(), 0), Eigen::VectorXd(), stated_noise)
+                        : LinearFit();
+    const double probability = now.allFinite() ? fixed.log_evidence + trial.log_prior() : -1e301;
+    if (probability <= reached) {
+      share *= 0.4;
+      if (step.empty() || share < 0.01) break;
+      continue;
+    }
+    law = trial, reached = probability, share = 1;
     std::vector<int> present;
     for (int g = 0; g < Law::n_groups; ++g)
-      if (trial.has[g]) present.push_back(g);
-    const Eigen::VectorXd now = model.predict(setting(trial));
-    if (!now.allFinite()) break;
+      if (law.has[g]) present.push_back(g);
     Eigen::MatrixXd columns(now.size(), 1 + static_cast<Eigen::Index>(present.size()));
     Eigen::VectorXd centre(columns.cols());
     {
-      Law moved = trial;
-      const double h = 0.02 * std::max(std::abs(trial.coefficient), probe);
+      Law moved = law;
+      const double h = 0.02 * std::max(std::abs(law.coefficient), probe);
       moved.coefficient += h;
       columns.col(0) = coefficient_deviation * (model.predict(setting(moved)) - now) / h;
-      centre[0] = trial.coefficient / coefficient_deviation;
+      centre[0] = law.coefficient / coefficient_deviation;
     }
     for (std::size_t i = 0; i < present.size(); ++i) {
-      Law moved = trial;
+      Law moved = law;
       const double h = 0.02;
       moved.exponent[present[i]] += h;
       const auto c = static_cast<Eigen::Index>(i) + 1;
       columns.col(c) = exponent_deviation * (model.predict(setting(moved)) - now) / h;
-      centre[c] = trial.exponent[present[i]] / exponent_deviation;
+      centre[c] = law.exponent[present[i]] / exponent_deviation;
     }
     if (!columns.allFinite()) break;
     // Priors are N(0, deviation^2) about zero, the linear model is about the present values.
     const LinearFit f = evaluate(now - columns * centre, columns, Eigen::VectorXd(), stated_noise);
     const Eigen::Index first = f.mean.size() - columns.cols();
-    if (f.log_evidence > best.log_evidence) {
-      best.log_evidence = f.log_evidence;
-      best.law = trial;
-      best.chi2 = f.chi2;
-      best.points = f.points;
-      best.deviation = {coefficient_deviation * std::sqrt(f.covariance(first, first))};
-      for (Eigen::Index i = 1; i < columns.cols(); ++i)
-        best.deviation.push_back(exponent_deviation * std::sqrt(f.covariance(first + i, first + i)));
-    }
-    if (best.deviation.empty()) break;
+    best = {law, f.log_evidence, fixed.chi2, fixed.points, {}};
+    best.deviation.push_back(coefficient_deviation * std::sqrt(f.covariance(first, first)));
+    for (Eigen::Index i = 1; i < columns.cols(); ++i)
+      best.deviation.push_back(exponent_deviation * std::sqrt(f.covariance(first + i, first + i)));
+    const double limit = std::abs(law.coefficient) + 0.05;
+    step = {std::clamp(coefficient_deviation * f.mean[first] - law.coefficient, -limit, limit)};
+    for (std::size_t i = 0; i < present.size(); ++i)
+      step.push_back(std::clamp(
+          exponent_deviation * f.mean[first + 1 + static_cast<Eigen::Index>(i)] - law.exponent[present[i]],
+          -0.5, 0.5));
     double moved = 0;
-    const double limit = step_limit * (std::abs(trial.coefficient) + 0.05);
-    const double dc = std::clamp(coefficient_deviation * f.mean[first] - trial.coefficient, -limit, limit);
-    trial.coefficient += dc;
-    moved = std::abs(dc) / std::max(best.deviation[0], 1e-9);
-    for (std::size_t i = 0; i < present.size(); ++i) {
-      const double de = std::clamp(
-          exponent_deviation * f.mean[first + 1 + static_cast<Eigen::Index>(i)] - trial.exponent[present[i]],
-          -0.5 * step_limit, 0.5 * step_limit);
-      trial.exponent[present[i]] = std::clamp(trial.exponent[present[i]] + de, -4.0, 4.0);
-      moved = std::max(moved, std::abs(de) / std::max(best.deviation[i + 1], 1e-9));
-    }
-    if (moved < 0.05) {
-      best.law = trial;
-      break;
-    }
-    step_limit *= 0.9;
+    for (std::size_t i = 0; i < step.size(); ++i)
+      moved = std::max(moved, std::abs(step[i]) / std::max(best.deviation[i], 1e-9));
+    if (moved < 0.05) break;
   }
   return best;
+}
+
+double LawSearch::chi2_of_nothing() {
+  return evaluate(responses.base(), Eigen::MatrixXd(responses.base().size(), 0), Eigen::VectorXd(),
+                  stated_noise)
+      .chi2;
 }
 
 }  // namespace seedflow

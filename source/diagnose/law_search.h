@@ -19,8 +19,12 @@ struct Law {
   bool has[n_groups] = {};
   /// In which unit the coefficient is: "drag", "weight", "Stokes drag".
   std::string reference() const;
+  /// "force along the slip"
+  std::string force_in_words() const;
   /// Against nothing missing: the odds that an effect is missing, and that of all laws it is this one [nats].
   double price() const;
+  /// Of its numbers, up to a constant.
+  double log_prior() const;
 };
 
 /// Searches laws outside the catalogue by their simulated effect. Internal to the diagnosis.
@@ -41,14 +45,17 @@ class LawSearch {
   /// the stated noise and under `other`. Best first.
   std::vector<Screened> screened_laws(const NoiseVariant& other);
 
-  /// Gauss-Newton over coefficient and exponents with real runs.
+  /// Gauss-Newton over coefficient and exponents with real runs, which must confirm every step.
   struct Refined {
     Law law;
-    double log_evidence = -1e300, chi2 = 0;
+    double log_evidence = -1e300;
+    double chi2 = 0;  ///< of the simulated law, inputs marginalised
     int points = 0;
     std::vector<double> deviation;  ///< coefficient, then exponents of the groups it has
   };
-  Refined refine(Law law);
+  Refined refine(const Law& start);
+  /// chi-square without any law, as Refined::chi2.
+  double chi2_of_nothing();
 
   Setting setting(const Law& law) const;
   double reference(int group) const { return group == 0 ? reference_reynolds : group == 5 ? 1 : 0.1; }

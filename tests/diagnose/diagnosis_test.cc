@@ -87,6 +87,25 @@ TEST(Diagnosis, FindsALawOutsideTheCatalogueWithItsExponent) {
   EXPECT_NEAR(d.law.factors[0].exponent.value, 0.6, 0.25) << d.law.text;
 }
 
+// A stream that grows exponentially with the height is no power of a dimensionless group: whatever law comes
+// nearest must be worth adding, or not be added.
+TEST(Diagnosis, ALawThatExplainsLittleIsNotAdded) {
+  Problem p = falling_seeds("stream");
+  Problem with_stream = p;
+  for (Condition& c : with_stream.conditions)
+    c.overrides.push_back("Air/Prescribed/Velocity z=-0.03*exp(-z/0.03)");
+  measure(with_stream, {}, 0.01, 5);
+  p.measurements = with_stream.measurements;
+  const Diagnosis d = diagnose(p);
+  ASSERT_EQ(d.verdict, Verdict::not_in_catalogue) << report(d);
+  EXPECT_EQ(d.law.found, !d.overrides.empty());
+  if (d.law.found) {
+    EXPECT_GT(d.explained, 0.5) << report(d);
+  } else {
+    EXPECT_NE(report(d).find("No law of the library"), std::string::npos) << report(d);
+  }
+}
+
 TEST(Diagnosis, RunsAreNotRepeatedAfterAnInterruption) {
   const auto folder = testing::scratch("resumed");
   std::filesystem::remove_all(folder / "store");
