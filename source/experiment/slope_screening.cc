@@ -52,6 +52,10 @@ Vec3 SlopeScreening::gravity() const {
   return {g * std::sin(inclination), 0, -g * std::cos(inclination)};
 }
 
+Vec3 SlopeScreening::loading_top() const {
+  return {-loading_length * std::cos(loading_steepness), 0, loading_length * std::sin(loading_steepness)};
+}
+
 void SlopeScreening::declare(Parameters& p) {
   granular.declare(p);
   const auto section =
@@ -65,6 +69,8 @@ void SlopeScreening::declare(Parameters& p) {
            "Distance of neighbouring holes in staggered rows. The paper prints none; chosen.");
   p.number("Loading length", loading_length, "m", Range::positive(),
            "Of the loading area along the slope. The paper prints none; chosen.");
+  p.number("Loading steepness", loading_steepness, "rad", Range::between(0, 1.2),
+           "By which the loading area's floor is steeper than the plate. The paper prints none; chosen.");
   p.number("Insert speed", insert_speed, "m/s", Range::positive(),
            "At which the insert plate in front of the seeds is pulled away, along the plate's normal.");
   p.text("Material", material, "Of plate and walls, one of Materials/Names.");
@@ -86,7 +92,8 @@ GranularScene SlopeScreening::scene(RegionCensus& census) const {
   GranularScene s;
   const int resin = granular.materials.number(material);
   const double d = granular.model.diameter, height = 150e-3, below = thickness + 12 * d;
-  s.low = {-loading_length - d, -d, -below};
+  const Vec3 top = loading_top();
+  s.low = {top.x - d, -d, -below};
   s.high = {length + 40 * d, width + d, height};
 
   Plate plate;
@@ -95,19 +102,22 @@ GranularScene SlopeScreening::scene(RegionCensus& census) const {
   plate.outline = RectangleOutline{length, width};
   plate.holes = holes_of(*this);
   plate.hole_radius = 0.5 * hole;
-  s.walls = {
-      Wall("sieve plate", plate, resin),
-      Wall("floor of the loading area",
-           Rectangle{{-0.5 * loading_length, 0.5 * width, 0}, {0, 0, 1}, {1, 0, 0}, loading_length, width},
-           resin),
-      Wall("back of the loading area", Plane{{-loading_length, 0, 0}, {1, 0, 0}}, resin),
-      Wall("left side", Plane{{0, 0, 0}, {0, 1, 0}}, resin),
-      Wall("right side", Plane{{0, width, 0}, {0, -1, 0}}, resin)};
+  s.walls = {Wall("sieve plate", plate, resin),
+             Wall("floor of the loading area",
+                  Rectangle{{0.5 * top.x, 0.5 * width, 0.5 * top.z},
+                            {std::sin(loading_steepness), 0, std::cos(loading_steepness)},
+                            {std::cos(loading_steepness), 0, -std::sin(loading_steepness)},
+                            loading_length,
+                            width},
+                  resin),
+             Wall("back of the loading area", Plane{top, {1, 0, 0}}, resin),
+             Wall("left side", Plane{{0, 0, 0}, {0, 1, 0}}, resin),
+             Wall("right side", Plane{{0, width, 0}, {0, -1, 0}}, resin)};
   const int insert = static_cast<int>(s.walls.size());
   // The insert stands 0.1 d in front of the first holes' plate edge, on the loading area's floor.
   s.walls.emplace_back("insert plate",
                        Rectangle{{0, 0.5 * width, 0.5 * height}, {1, 0, 0}, {0, 1, 0}, width, height}, resin);
-  s.rooms = {{"loading area", {-loading_length, 0, 0}, {0, width, height}}};
+  s.rooms = {{"loading area", top, {0, width, height}}};
 
   const double speed = insert_speed, gone = height / speed;
   s.begin = [insert, speed, gone](Dem& dem, double start) {

@@ -45,16 +45,17 @@ SeedPicture side_view(const SlopeScreening& e, const Dem& dem, const std::string
     const auto [f, g] = place(x2, z2);
     p.behind.push_back({{a, f}, {b, g}, "#333", 2.5});
   };
-  line(-e.loading_length, 0, 0, 0);
-  line(-e.loading_length, 0, -e.loading_length, 40e-3);
+  const Vec3 upper = e.loading_top();
+  line(upper.x, upper.z, 0, 0);
+  line(upper.x, upper.z, upper.x, upper.z + 40e-3);
   line(0, -e.thickness, e.length, -e.thickness);
   for (int area = 0; area <= SlopeScreening::n_areas; ++area) {
     const auto [x, y] = place(area * e.length / SlopeScreening::n_areas, -e.thickness - 2e-3);
     p.behind.push_back({{x, x}, {y, y - 20e-3}, "#888", 1.5});
   }
-  const auto [left, top] = place(-e.loading_length, 50e-3);
+  const auto [left, top] = place(upper.x, upper.z + 50e-3);
   const auto [right, bottom] = place(e.length, -30e-3);
-  p.window = {std::min(left, -e.loading_length) - 5e-3, bottom, right + 25e-3, top};
+  p.window = {std::min(left, upper.x) - 5e-3, bottom, right + 25e-3, top};
   return p;
 }
 

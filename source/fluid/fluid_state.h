@@ -35,6 +35,15 @@ struct Fluid<dim, degree>::Implementation {
   std::pair<StepIntegrals<dim>, double> correct();
   void finish_step();
 
+  // fluid_balance.cc: what a step did, from its end velocity and pressure and the mass residual in
+  // scalar_rhs.
+  void book_mass(const StepIntegrals<dim>& integrals, double inflow);
+  /// Shear, momentum carried through and pressure on every side, of this rank.
+  void book_reactions();
+  void book_momentum(const StepIntegrals<dim>& integrals);
+  /// In closed domains only differences of pressure matter: the mean of the nodes becomes zero.
+  void centre_pressure();
+
   // fluid_rotor.cc; all of it does nothing without a rotor.
   void turn_to(double angle);
   /// Velocity of the mesh, the rotating frame's force, and the lifting of the old pressure.

@@ -292,144 +292,15 @@ template <int dim, int degree>
 void Fluid<dim, degree>::Implementation::finish_step() {
   const CpuTimer timer(statistics.update);
   const auto [integrals, inflow] = correct();
-
-  // Residuals of mass; at open sides they are the outflow instead.
-  double through_open_sides = 0, largest = 0, total = 0;
-  std::vector<char> open(space->structure->n_owned(), 0);
-  for (const auto& node : boundary->fixed_pressure) open[node.node] = 1;
-  for (std::uint32_t i = 0; i < open.size(); ++i) {
-    const double r = scalar_rhs.local_element(i);
-    if (space->constrained[i]) continue;
-    if (open[i]) {
-      through_open_sides += std::max(0.0, -r);
-      continue;
-    }
-    largest = std::isfinite(r) ? std::max(largest, std::abs(r)) : INFINITY;
-    total += r;
-  }
-  std::vector<double> side_power(boundary->names.size(), 0.0);
-  for (const auto& node : boundary->fixed_pressure) {
-    const double out = scalar_rhs.local_element(node.node);
-    side_outflow[node.side] += out;
-    side_power[node.side] += out * (fields.p.local_element(node.node) + fields.phi.local_element(node.node));
-  }
-  // Momentum: reactions of given velocities, momentum through open sides, sums over all ranks at once.
-  const std::size_t n_sides = boundary->names.size();
-  std::vector<double> sums;
-  for (const auto* a :
-       {integrals.change, integrals.exchange, integrals.pressure, integrals.share, integrals.momentum})
-    sums.insert(sums.end(), a, a + dim);
-  std::vector<double> reaction(n_sides * dim, 0.0), torque(sliding ? n_sides : 0, 0.0);
-  for (int d = 0; d < dim; ++d) {
-    for (const auto& node : boundary->fixed_velocity[d]) {
-      const double force =
-          momentum_matrix->row_times(node.node, fields.u[d]) - rhs[d].local_element(node.node);
-      reaction[node.side * dim + d] += force;
-      if (sliding)
-        torque[node.side] += force * domain.rotor()->across(node.position - domain.rotor()->centre)[d];
-    }
-    for (const auto& node : boundary->fixed_pressure)
-      reaction[node.side * dim + d] -=
-          mass_defect.local_element(node.node) * fields.u[d].local_element(node.node);
-  }
-  sums.insert(sums.end(), reaction.begin(), reaction.end());
   fields.p.zero_out_ghost_values();
   fields.phi.zero_out_ghost_values();
   fields.p += fields.phi;
   fields.p.update_ghost_values();
-  for (const Vector& f : boundary->pressure_force(fields.p))
-    for (int d = 0; d < dim; ++d) sums.push_back(f[d]);
-  for (const auto* a : {&side_outflow, &side_power}) sums.insert(sums.end(), a->begin(), a->end());
-  if (sliding) {
-    const auto moment = boundary->turning_moment();
-    for (std::size_t side = 0; side < n_sides; ++side)
-      torque[side] -= coefficients.viscosity * motion.speed * moment[side];
-  }
-  sums.insert(sums.end(), torque.begin(), torque.end());
-  if (sliding) {
-    interface_flow = sliding->flow(fields.eps, fields.u_older);
-    for (const auto& forces :
-         {sliding->wall_force(interface_terms, fields.u), sliding->wall_pressure(fields.p)})
-      for (const Vector& f : forces)
-        for (int d = 0; d < dim; ++d) sums.push_back(f[d]);
-  }
-  for (const double a : {inflow, through_open_sides, integrals.growth, integrals.circulation, total})
-    sums.push_back(a);
-  double volume = 0, p_sum = 0;
-  if (!boundary->has_open_side)
-    for (std::uint32_t i = 0; i < open.size(); ++i)
-      if (!space->constrained[i]) {
-        volume += 1;
-        p_sum += fields.p.local_element(i);
-      }
-  sums.push_back(volume);
-  sums.push_back(p_sum);
-  double domain_volume = 0;
-  for (const double v : space->layout.cell_volume) domain_volume += v;
-  sums.push_back(domain_volume);
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, domain.communicator());
-  largest = max(largest);
-
-  auto next = sums.begin();
-  const auto vector = [&next] {
-    Vector v;
-    for (int d = 0; d < dim; ++d) v[d] = *next++;
-    return v;
-  };
-  auto& balance = momentum_balance;
-  balance.change = vector();
-  balance.exchange = vector();
-  balance.pressure = vector();
-  balance.pressure_share = vector();
-  momentum = vector();
-  Vector left = balance.change - balance.exchange - balance.pressure;
-  double scale = std::max({balance.change.norm(), balance.exchange.norm(), balance.pressure.norm()});
-  for (const auto& name : boundary->names) {
-    const Vector r = vector();
-    balance.reaction[name] = r;
-    left -= r;
-    scale = std::max(scale, r.norm());
-  }
-  for (const auto& name : boundary->names) {
-    balance.pressure_force[name] = vector();
-    scale = std::max(scale, balance.pressure_force[name].norm());
-  }
-  for (std::size_t side = 0; side < n_sides; ++side) {
-    const double out = *next++;
-    if (boundary->lets_through(side)) mass.outflow[boundary->names[side]] = out;
-  }
-  for (std::size_t side = 0; side < n_sides; ++side) {
-    const double power = *next++;
-    if (boundary->is_open(side)) mass.power[boundary->names[side]] = power;
-  }
-  if (sliding) {
-    for (const auto& name : boundary->names) balance.torque[name] = *next++;
-    const auto& pair = domain.rotor()->pairs.front();
-    for (const auto& name : {pair.rotor, pair.stator}) {
-      const Vector r = vector();
-      balance.reaction[name] = r;
-      left -= r;
-      scale = std::max(scale, r.norm());
-    }
-    for (const auto& name : {pair.rotor, pair.stator}) balance.pressure_force[name] = vector();
-  }
-  balance.residual = scale > 0 ? left.norm() / scale : 0;
-  const double in = *next++, out = *next++, growth = *next++, circulation = *next++, sum_residual = *next++;
-  const double n_free = *next++, pressure_sum = *next++, whole_volume = *next++;
-  mass.flow = std::max({in, out, growth, circulation / std::pow(whole_volume, 1.0 / dim), smallest_flow()});
-  mass.largest = mass.flow > 0 ? largest / mass.flow : 0;
-  mass.total = mass.flow > 0 ? std::abs(sum_residual) / mass.flow : 0;
-  if (!boundary->has_open_side) {
-    // Only differences of pressure matter: keep the mean of the nodes at zero.
-    fields.p.zero_out_ghost_values();
-    fields.p.add(-pressure_sum / n_free);
-    fields.p.update_ghost_values();
-    space->set_constrained(fields.p);
-  } else {
-    space->set_constrained(fields.p);
-  }
-  if (!std::isfinite(momentum.norm()) || !std::isfinite(largest))
-    fail("the flow is not finite.", "Reduce the time step.");
+  book_mass(integrals, inflow);
+  book_momentum(integrals);
+  if (sliding) interface_flow = sliding->flow(fields.eps, fields.u_older);
+  centre_pressure();
+  space->set_constrained(fields.p);
 
   std::swap(fields.u_older, fields.u_old);
   std::swap(fields.eps_older, fields.eps_old);

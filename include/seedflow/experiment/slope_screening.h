@@ -25,6 +25,7 @@ struct SlopeScreening {
   double hole = 4.2e-3;                                      ///< diameter [m]
   double pitch = 6e-3;                                       ///< of the holes, staggered rows [m]
   double loading_length = 40e-3;                             ///< of the loading area along the slope [m]
+  double loading_steepness = 0;                              ///< of its floor, more than the plate's [rad]
   double insert_speed = 1;                                   ///< [m/s]
   std::string material = "photosensitive resin";
 
@@ -39,6 +40,8 @@ struct SlopeScreening {
   int n_holes() const;
   /// Inclined gravity [m/s2].
   Vec3 gravity() const;
+  /// Upper end of the loading area's floor: x < 0, z >= 0 [m].
+  Vec3 loading_top() const;
 };
 
 /// Mass in a region over the mass of all seeds [%].
