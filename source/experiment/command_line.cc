@@ -92,11 +92,12 @@ int run(const CommandLine& program, const Arguments& arguments, std::ostream&) {
 }
 
 std::string optional_argument(const Arguments& arguments, const std::string& command) {
+  for (const std::string& argument : arguments)
+    if (argument.compare(0, 2, "--") == 0)
+      throw InputError("option " + argument + " is not known; " + command + " has none.");
   if (arguments.size() > 1)
     throw InputError("\"" + arguments[1] + "\": " + command +
                      " takes one name at most. Put a name with blanks in " + "quotation marks.");
-  if (!arguments.empty() && arguments[0].compare(0, 2, "--") == 0)
-    throw InputError("option " + arguments[0] + " is not known; " + command + " has none.");
   return arguments.empty() ? "" : arguments[0];
 }
 

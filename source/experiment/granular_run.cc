@@ -135,7 +135,7 @@ bool GranularRun::use_cached_filling(const Parameters& p) {
   std::vector<std::string> may_change = scene.not_of_filling;
   may_change.insert(may_change.end(), {"Experiment", "Run/", "Filling/Cache", "Study/"});
   cached.require_same_parameters(as_text(p), may_change);
-  load(cached);
+  cached.read([&] { load(cached); });
   return true;
 }
 

@@ -92,8 +92,10 @@ std::string SupervisedRun::save_failed_state(double time) {
 void SupervisedRun::resume(const Load& load, const std::vector<std::string>& may_change) {
   CheckpointReader checkpoint(std::filesystem::path(options.output) / "checkpoint", comm);
   checkpoint.require_same_parameters(as_text(parameters), may_change);
-  load(checkpoint);
-  read_binary(checkpoint.stream("supervision"), seconds);
+  checkpoint.read([&] {
+    load(checkpoint);
+    read_binary(checkpoint.stream("supervision"), seconds);
+  });
 }
 
 void SupervisedRun::carry_out(const LongWork& work) {

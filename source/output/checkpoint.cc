@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "checksum_stream.h"
+#include "seedflow/base/binary.h"
 #include "seedflow/base/error.h"
 #include "seedflow/base/together.h"
 #include "seedflow/output/folder.h"
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// To be raised when any part of a saved state changes its layout.
 constexpr int format_version = 1;
 const char* const pointer_name = "current";
 const char* const manifest_name = "manifest.json";
@@ -225,9 +227,10 @@ CheckpointReader::CheckpointReader(const fs::path& folder, MPI_Comm comm)
   together(i.ranks.comm, [&] {
     i.manifest = Json::parse(text);
     if (const int version = i.manifest.at("version").get<int>(); version != format_version)
-      throw InputError("The checkpoint in '" + folder.string() + "' has format " + std::to_string(version) +
-                       "; this program reads format " + std::to_string(format_version) +
-                       ". Resume with the version that wrote it.");
+      throw InputError(
+          "The checkpoint in '" + folder.string() + "' has format " + std::to_string(version) +
+          "; this program reads format " + std::to_string(format_version) +
+          ". Resume with the version of the program that wrote it, or start anew without --resume.");
     if (const int written = i.manifest.at("ranks").get<int>(); written != i.ranks.size)
       throw InputError("The checkpoint in '" + folder.string() + "' was written by " +
                        std::to_string(written) + (written == 1 ? " rank" : " ranks") + ", this run has " +
@@ -263,6 +266,18 @@ void CheckpointReader::require_same_parameters(const std::string& parameters,
   if (!changes.empty())
     throw InputError("The run cannot be resumed with other parameters than it was begun with:" + changes +
                      "\nSet them back, or start anew in another output folder.");
+}
+
+void CheckpointReader::read(const std::function<void()>& load) const {
+  try {
+    load();
+  } catch (const StateFormatError& error) {
+    throw InputError(
+        "The checkpoint in '" + implementation->slot.string() +
+        "' was written by another version of this program: its files are undamaged, but not laid "
+        "out as this version expects (" +
+        error.what() + "). Resume with the program that wrote it, or start anew without --resume.");
+  }
 }
 
 std::istream& CheckpointReader::stream(const std::string& name) {

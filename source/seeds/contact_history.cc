@@ -7,9 +7,10 @@
 namespace seedflow {
 
 void ContactHistory::sort() {
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+  const auto before = [](const Pair& a, const Pair& b) {
     return a.first != b.first ? a.first < b.first : a.second < b.second;
-  });
+  };
+  if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
   std::sort(on_wall.begin(), on_wall.end(), [](const OnWall& a, const OnWall& b) {
     return std::tie(a.sphere, a.wall, a.feature) < std::tie(b.sphere, b.wall, b.feature);
   });

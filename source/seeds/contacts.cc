@@ -60,32 +60,34 @@ std::vector<WallCandidate> candidates_of(const Contacts::Surroundings& now, doub
 }
 
 // What this rank is to count of the lists: pairs whose first seed is its own, its own sub-spheres.
-ListSizes sizes_of(const Contacts::Surroundings& now, const std::vector<SpherePair>& pairs,
-                   const std::vector<WallCandidate>& at_walls, double skin, double reach) {
+ListSizes sizes_of(const Contacts::Surroundings& now, const FoundPairs& found,
+                   const std::vector<WallCandidate>& at_walls, double inner_gap) {
   ListSizes sizes;
   const Numbering& n = now.cloud.numbering;
-  std::vector<char> listed(n.n_spheres(), 0);  // 1: within the skin, 2: within half of it
-  const auto radius = [&](int sphere) {
-    const int t = n.store_of_sphere(sphere);
-    return now.stores[t].model.radius[(sphere - n.first_sphere[t]) % now.stores[t].n_spheres()];
-  };
+  std::vector<char> listed(n.n_spheres(), 0);  // 1: within the skin, 3: also within half of it
   const auto mark = [&](int sphere, bool close) { listed[sphere] |= close ? 3 : 1; };
-  for (const SpherePair& p : pairs) {
-    const double gap =
-        norm(now.cloud.position(p.first) - now.cloud.position(p.second)) - radius(p.first) - radius(p.second);
-    const bool close = gap < 0.5 * skin + reach;
-    mark(p.first, close), mark(p.second, close);
-    if (!now.own[seed_of(now, p.first)]) continue;
-    sizes.whole.pairs += 1, sizes.half.pairs += close;
+  for (std::size_t k = 0; k < found.pair.size(); ++k) {
+    mark(found.pair[k].first, found.close[k]);
+    mark(found.pair[k].second, found.close[k]);
   }
   for (const WallCandidate& c : at_walls) {
+    const int t = n.store_of_sphere(c.sphere);
+    const double radius =
+        now.stores[t].model.radius[(c.sphere - n.first_sphere[t]) % now.stores[t].n_spheres()];
     const bool close = may_touch(now.walls[c.wall], now.placements[c.wall], now.cloud.position(c.sphere),
-                                 radius(c.sphere) + 0.5 * skin + reach);
+                                 radius + inner_gap);
     mark(c.sphere, close);
     sizes.whole.at_walls += 1, sizes.half.at_walls += close;
   }
-  for (int k = 0; k < n.n_spheres(); ++k)
-    if (listed[k] && now.own[seed_of(now, k)]) sizes.whole.spheres += 1, sizes.half.spheres += listed[k] >> 1;
+  for (std::size_t t = 0; t < now.stores.size(); ++t)
+    for (int seed = n.first_seed[t]; seed < n.first_seed[t + 1]; ++seed) {
+      if (!now.own[seed]) continue;
+      for (int k = found.begin[seed]; k < found.begin[seed + 1]; ++k)
+        sizes.whole.pairs += 1, sizes.half.pairs += found.close[k];
+      const int begin = now.cloud.first_sphere(now.stores[t], t, seed - n.first_seed[t]);
+      for (int k = begin; k < begin + now.stores[t].n_spheres(); ++k)
+        sizes.whole.spheres += listed[k] & 1, sizes.half.spheres += listed[k] >> 1;
+    }
   return sizes;
 }
 
@@ -120,60 +122,77 @@ ListSizes Contacts::search(const Surroundings& now, double skin, bool normalise,
   for (const SeedStore& s : now.stores)
     for (double r : s.model.radius) largest = std::max(largest, r);
   for (const ContactLaw& l : laws) reach = std::max(reach, l.reach(largest));
-  const std::vector<SpherePair> found = pairs_within(now.stores, now.cloud, listed_skin + reach, now.own);
-  const std::vector<WallCandidate> at_walls = candidates_of(now, listed_skin + reach);
+  const double inner_gap = 0.5 * skin + reach;
+  const FoundPairs found = pairs_within(now.stores, now.cloud, skin + reach, inner_gap, now.own);
+  const std::vector<WallCandidate> at_walls = candidates_of(now, skin + reach);
 
   std::vector<int> entry_of(numbering.n_spheres(), -1);
-  for (const SpherePair& pair : found) entry_of[pair.first] = entry_of[pair.second] = 0;
+  for (const SpherePair& pair : found.pair) entry_of[pair.first] = entry_of[pair.second] = 0;
   for (const WallCandidate& c : at_walls) entry_of[c.sphere] = 0;
+  make_entries(now, entry_of);
+  list_pairs(now, normalise, history, found, entry_of);
+  list_walls(now, normalise, history, at_walls, entry_of);
+  return sizes_of(now, found, at_walls, inner_gap);
+}
+
+void Contacts::make_entries(const Surroundings& now, std::vector<int>& entry_of) {
   const std::size_t n_entries = std::count(entry_of.begin(), entry_of.end(), 0);
-  all_bodies = ContactBodies{};
-  all_bodies.sphere.reserve(n_entries), all_bodies.body.reserve(n_entries);
-  all_bodies.state.reserve(n_entries);
-  std::vector<Place>().swap(places);
-  places.reserve(n_entries);
+  // Memory that fits about is used again.
+  const auto empty = [&](auto& v) {
+    if (v.capacity() > n_entries + n_entries / 4) std::decay_t<decltype(v)>().swap(v);
+    v.clear(), v.reserve(n_entries);
+  };
+  empty(all_bodies.sphere), empty(all_bodies.body), empty(all_bodies.state), empty(places);
   first_entry.clear();
-  int n_bodies = 0;
+  all_bodies.motion.clear();
   for (std::size_t t = 0; t < now.stores.size(); ++t) {
     const SeedStore& s = now.stores[t];
     const int n = s.n_spheres();
+    const double inertia = std::min({s.model.inertia.x, s.model.inertia.y, s.model.inertia.z});
     for (int slot = 0; slot < static_cast<int>(s.seed.size()); ++slot) {
       if (slot % lane_width == 0) first_entry.push_back(static_cast<int>(places.size()));
-      const int before = n_bodies;
+      const int begin = now.cloud.first_sphere(s, static_cast<int>(t), slot);
+      bool has_body = false;
       for (int i = 0; i < n; ++i) {
-        const int sphere = numbering.first_sphere[t] + slot * n + i;
-        if (entry_of[sphere] < 0) continue;
-        entry_of[sphere] = static_cast<int>(places.size());
+        if (entry_of[begin + i] < 0) continue;
+        entry_of[begin + i] = static_cast<int>(places.size());
         places.push_back({i, slot % lane_width});
-        all_bodies.sphere.push_back(sphere);
-        if (!s.rigid || n_bodies == before) ++n_bodies;
-        all_bodies.body.push_back(n_bodies - 1);
-        ContactSphere& state = all_bodies.state.emplace_back();
-        state.motion[3] = s.model.radius[i];
-        state.motion[7] = s.rigid ? s.model.mass : s.model.sphere_mass[i];
-        const Vec3& inertia = s.model.inertia;
-        state.turning[3] = s.rigid ? std::min({inertia.x, inertia.y, inertia.z}) : s.model.sphere_inertia[i];
-        const Vec3 x = now.cloud.position(sphere);
-        state.place(x, {}, {}, {});
+        all_bodies.sphere.push_back(begin + i);
+        all_bodies.state.push_back({{0, 0, 0, s.model.radius[i]}});
+        if (!s.rigid || !has_body) {
+          ContactMotion& motion = all_bodies.motion.emplace_back();
+          motion[3] = s.rigid ? s.model.mass : s.model.sphere_mass[i];
+          motion[7] = s.rigid ? inertia : s.model.sphere_inertia[i];
+          has_body = true;
+        }
+        all_bodies.body.push_back(static_cast<int>(all_bodies.motion.size()) - 1);
       }
     }
   }
   first_entry.push_back(static_cast<int>(places.size()));
-  all_bodies.sum.resize(n_bodies);
-  list_pairs(now, normalise, history, found, entry_of);
-  list_walls(now, normalise, history, at_walls, entry_of);
-  return sizes_of(now, found, at_walls, skin, reach);
+  const auto turns_about_another_point = [](const SeedStore& s) {
+    return s.rigid && s.n_spheres() > 1 && !s.seed.empty();
+  };
+  // Rare laws have one kernel, that with levers.
+  const auto is_rare = [](const ContactLaw& l) { return l.cohesion != Cohesion::none || l.partial_slip > 0; };
+  const bool levers = std::any_of(now.stores.begin(), now.stores.end(), turns_about_another_point) ||
+                      std::any_of(laws.begin(), laws.end(), is_rare);
+  const std::size_t n_bodies = all_bodies.motion.size();
+  if (all_bodies.motion.capacity() > n_bodies + n_bodies / 4) all_bodies.motion.shrink_to_fit();
+  std::vector<ContactSum>(n_bodies).swap(all_bodies.sum);
+  std::vector<HalfLine>(levers ? n_bodies : 0).swap(all_bodies.centre);
 }
 
 void Contacts::list_pairs(const Surroundings& now, bool normalise, const ContactHistory& history,
-                          const std::vector<SpherePair>& found, const std::vector<int>& entry_of) {
-  std::vector<int> law(found.size()), group(normalise ? found.size() : 0);
+                          const FoundPairs& found, const std::vector<int>& entry_of) {
+  const std::size_t n = found.pair.size();
+  std::vector<int> law(laws.size() > 1 ? n : 0), group(normalise ? n : 0);
   Groups groups;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    law[k] = law_number[material_of(now, found[k].first)][material_of(now, found[k].second)];
-    if (normalise) group[k] = groups.number(seed_of(now, found[k].first), seed_of(now, found[k].second));
-  }
-  pairs.set(found, law, group, entry_of, laws, all_bodies, history);
+  for (std::size_t k = 0; k < law.size(); ++k)
+    law[k] = law_number[material_of(now, found.pair[k].first)][material_of(now, found.pair[k].second)];
+  for (std::size_t k = 0; k < group.size(); ++k)
+    group[k] = groups.number(seed_of(now, found.pair[k].first), seed_of(now, found.pair[k].second));
+  pairs.set(found.pair, law, group, entry_of, laws, all_bodies, history);
 }
 
 void Contacts::list_walls(const Surroundings& now, bool normalise, const ContactHistory& history,
@@ -199,10 +218,8 @@ ContactHistory Contacts::history() const {
 }
 
 std::size_t Contacts::bytes() const {
-  return pairs.bytes() + on_walls.bytes() + places.capacity() * sizeof(Place) +
-         first_entry.capacity() * sizeof(int) +
-         all_bodies.state.capacity() * (sizeof(ContactSphere) + 2 * sizeof(int)) +
-         all_bodies.sum.capacity() * sizeof(ContactSum);
+  return pairs.bytes() + on_walls.bytes() + all_bodies.bytes() + places.capacity() * sizeof(Place) +
+         first_entry.capacity() * sizeof(int);
 }
 
 }  // namespace seedflow

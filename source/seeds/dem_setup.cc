@@ -171,7 +171,7 @@ void Dem::check_overlaps() const {
     overlap = present, wall = w;
     seed = seed_of_sphere(sphere_a), other = sphere_b < 0 ? -1 : seed_of_sphere(sphere_b);
   };
-  for (const SpherePair& p : pairs_within(store, cloud, 0, std::vector<char>(n_seeds(), 1))) {
+  for (const SpherePair& p : pairs_within(store, cloud, 0, 0, std::vector<char>(n_seeds(), 1)).pair) {
     const int a = users_number[p.first], b = users_number[p.second];
     look(sphere_radius[a] + sphere_radius[b] - norm(cloud.position(p.first) - cloud.position(p.second)),
          std::min(a, b), std::max(a, b), -1);

@@ -105,11 +105,19 @@ void GhostExchange::set(const SeedShare& share, const Numbering& numbering,
     std::sort(a.begin(), a.end());
     a.erase(std::unique(a.begin(), a.end()), a.end());
   };
+  const auto bodies_of = [&](const std::vector<int>& entries) {
+    std::vector<int> result;
+    for (int e : entries) result.push_back(bodies.body[e]);
+    unique(result);
+    return result;
+  };
   for (int r = 0; r < share.n_ranks(); ++r) {
     if (send[r].empty()) continue;
     unique(send[r]), unique(receive[r]);
-    Neighbour n{r, send[r], receive[r], {}, {}};
-    n.out.resize(send[r].size()), n.in.resize(receive[r].size());
+    Neighbour n{r, send[r], receive[r], bodies_of(send[r]), bodies_of(receive[r]), {}, {}};
+    const std::size_t lines = bodies.levers() ? 3 : 2;
+    n.out.resize(n.send.size() + lines * n.send_bodies.size());
+    n.in.resize(n.receive.size() + lines * n.receive_bodies.size());
     neighbours.push_back(std::move(n));
   }
 }
@@ -117,19 +125,33 @@ void GhostExchange::set(const SeedShare& share, const Numbering& numbering,
 void GhostExchange::bring(const SeedShare& share, ContactBodies& bodies) {
   if (neighbours.empty()) return;
   requests.clear();
-  const auto bytes = [](const std::vector<ContactSphere>& a) {
-    return static_cast<int>(a.size() * sizeof(ContactSphere));
+  const auto bytes = [](const std::vector<HalfLine>& a) {
+    return static_cast<int>(a.size() * sizeof(HalfLine));
   };
+  static_assert(sizeof(ContactMotion) == 2 * sizeof(HalfLine));
   for (Neighbour& n : neighbours)
     MPI_Irecv(n.in.data(), bytes(n.in), MPI_BYTE, n.rank, 0, share.communicator(), &requests.emplace_back());
   for (Neighbour& n : neighbours) {
-    for (std::size_t k = 0; k < n.send.size(); ++k) n.out[k] = bodies.state[n.send[k]];
+    HalfLine* to = n.out.data();
+    for (int e : n.send) *to++ = bodies.state[e];
+    for (int b : n.send_bodies) {
+      std::copy_n(bodies.motion[b].value, 4, (to++)->value);
+      std::copy_n(bodies.motion[b].value + 4, 4, (to++)->value);
+      if (bodies.levers()) *to++ = bodies.centre[b];
+    }
     MPI_Isend(n.out.data(), bytes(n.out), MPI_BYTE, n.rank, 0, share.communicator(),
               &requests.emplace_back());
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  for (const Neighbour& n : neighbours)
-    for (std::size_t k = 0; k < n.receive.size(); ++k) bodies.state[n.receive[k]] = n.in[k];
+  for (const Neighbour& n : neighbours) {
+    const HalfLine* from = n.in.data();
+    for (int e : n.receive) bodies.state[e] = *from++;
+    for (int b : n.receive_bodies) {
+      std::copy_n((from++)->value, 4, bodies.motion[b].value);
+      std::copy_n((from++)->value, 4, bodies.motion[b].value + 4);
+      if (bodies.levers()) bodies.centre[b] = *from++;
+    }
+  }
 }
 
 }  // namespace seedflow

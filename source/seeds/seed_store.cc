@@ -61,6 +61,12 @@ void SeedStore::rearrange(const std::vector<int>& from) {
   model = old.model, material = old.material, rigid = old.rigid;
   if (!old.load.empty() && !from.empty()) load.resize(1);
   const int n = n_spheres();
+  const std::size_t blocks = (from.size() + lane_width - 1) / lane_width;
+  seed.reserve(from.size()), occupied.reserve(blocks);
+  if (rigid)
+    body.reserve(blocks), body_force.reserve(blocks);
+  else
+    sphere.reserve(blocks * n), force.reserve(blocks * n);
   for (std::size_t k = 0; k < from.size(); ++k) {
     const int lane = static_cast<int>(k) % lane_width, b = static_cast<int>(k) / lane_width;
     const int old_lane = from[k] % lane_width, old_b = from[k] / lane_width;

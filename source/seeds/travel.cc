@@ -12,11 +12,14 @@ void Travel::begin(const std::vector<SeedStore>& stores, const SeedShare& share,
   for (std::size_t t = 0; t < stores.size(); ++t) {
     const SeedStore& s = stores[t];
     Reference& r = reference[t];
+    const std::size_t blocks = share.end(t) - share.begin(t);
+    const bool turns = s.rigid && s.n_spheres() > 1;
+    r.sphere.reserve(s.rigid ? 0 : blocks * s.n_spheres());
+    r.centre.reserve(s.rigid ? blocks : 0), r.orientation.reserve(turns ? blocks : 0);
     for (int b = share.begin(t); b < share.end(t); ++b) {
-      if (s.rigid)
-        r.centre.push_back(s.body[b].position), r.orientation.push_back(s.body[b].orientation);
-      else
-        for (int i = 0; i < s.n_spheres(); ++i) r.sphere.push_back(s.block(b)[i].position);
+      if (s.rigid) r.centre.push_back(s.body[b].position);
+      if (turns) r.orientation.push_back(s.body[b].orientation);
+      for (int i = 0; !s.rigid && i < s.n_spheres(); ++i) r.sphere.push_back(s.block(b)[i].position);
     }
   }
 }

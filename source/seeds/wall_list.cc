@@ -20,7 +20,8 @@ void WallList::set(const std::vector<WallCandidate>& candidates, const std::vect
                    const std::vector<int>& entry_of, const std::vector<ContactLaw>& laws,
                    const ContactBodies& bodies, const ContactHistory& history) {
   segments.clear(), candidate.clear(), touching.clear(), point.clear(), seat.clear();
-  memory.clear();
+  const auto more = [](const ContactLaw& l) { return l.remembers_more(); };
+  memory.reset(std::any_of(laws.begin(), laws.end(), more), history.on_wall.size());
   std::map<std::pair<int, int>, int> seat_of;
   for (int l = 0; l < static_cast<int>(laws.size()); ++l) {
     Segment segment{l, static_cast<int>(candidate.size()), 0, 0};
@@ -32,13 +33,13 @@ void WallList::set(const std::vector<WallCandidate>& candidates, const std::vect
       if (place.second) seat.push_back({block[k], c.wall, {}});
       const int number = static_cast<int>(candidate.size());
       candidate.push_back({entry_of[c.sphere], c.wall, group.empty() ? -1 : group[k], place.first->second});
-      segment.reach = std::max(segment.reach, laws[l].reach(bodies.state[entry_of[c.sphere]].radius()));
+      segment.reach = std::max(segment.reach, laws[l].reach(radius_of(bodies.state[entry_of[c.sphere]])));
       while (old != history.on_wall.end() &&
              (old->sphere != c.sphere ? old->sphere < c.sphere : old->wall < c.wall))
         ++old;
       for (; old != history.on_wall.end() && old->sphere == c.sphere && old->wall == c.wall; ++old) {
         touching.push_back({number, old->feature, memory.take()});
-        std::copy_n(old->memory, 8, memory[touching.back().line].value);
+        memory.write(touching.back().line, old->memory);
         std::copy_n(old->normal, 3, point.emplace_back().value);
       }
     }
@@ -70,7 +71,7 @@ void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
     const Candidate& c = candidate[k];
     const ContactSphere& sphere = bodies.state[c.entry];
     found.clear();
-    contacts_near(walls[c.wall], place[c.wall], sphere.position(), sphere.radius() + segment.reach, found);
+    contacts_near(walls[c.wall], place[c.wall], centre_of(sphere), radius_of(sphere) + segment.reach, found);
     auto last = old;
     while (last != before.end() && last->candidate == k) ++last;
     const int first_found = static_cast<int>(touching.size());
@@ -79,7 +80,7 @@ void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
       const auto same =
           std::find_if(old, last, [&](const Touching& t) { return t.feature == p.feature && t.line >= 0; });
       // A two-sided surface pushes to where the centre is: deep in it and turned around is through it.
-      if (same != last && p.distance < 0.5 * sphere.radius() && first_fault.sphere < 0) {
+      if (same != last && p.distance < 0.5 * radius_of(sphere) && first_fault.sphere < 0) {
         const CacheLine& b = point_before[same - before.begin()];
         if (p.normal.x * b[0] + p.normal.y * b[1] + p.normal.z * b[2] < 0)
           first_fault = {bodies.sphere[c.entry], c.wall};
@@ -96,36 +97,43 @@ void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
   segment.touching_end = static_cast<int>(touching.size());
 }
 
-template <Rolling rolling, Cohesion cohesion>
+template <Rolling rolling, Cohesion cohesion, bool partial, bool levers>
 void WallList::add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
                            double step) {
+  constexpr bool whole = remembers_more<rolling, cohesion, partial>;
   for (int k = segment.touching_begin; k < segment.touching_end; k += lane_width) {
     const int n = std::min(lane_width, segment.touching_end - k);
-    const CacheLine *motion[lane_width], *turning[lane_width], *where[lane_width], *line[lane_width];
     const Candidate* who[lane_width];
+    int body[lane_width];
     Lanes share = Lanes{} + 1.0;
+    const auto number = [&](int l) { return k + std::min(l, n - 1); };
     for (int l = 0; l < lane_width; ++l) {
-      const int t = k + std::min(l, n - 1);
-      who[l] = &candidate[touching[t].candidate];
-      const ContactSphere& a = bodies.state[who[l]->entry];
-      motion[l] = &a.motion, turning[l] = &a.turning;
-      where[l] = &point[t];
-      line[l] = &memory[touching[t].line];
+      who[l] = &candidate[touching[number(l)].candidate];
+      body[l] = bodies.body[who[l]->entry];
       if (who[l]->group >= 0) share[l] = contact_share(n_in_group[who[l]->group]);
     }
-    const LaneSphere a(motion, turning);
-    LaneMemory remembered(line);
+    const LaneSphere<Lanes, levers> a(RecordsAt{[&](int l) { return &bodies.state[who[l]->entry]; }},
+                                      RecordsAt{[&](int l) { return &bodies.motion[body[l]]; }},
+                                      RecordsAt{[&](int l) { return &bodies.centre[body[l]]; }});
+    LaneMemory<Lanes, whole> remembered(
+        RecordsAt{[&](int l) { return memory.first(touching[number(l)].line); }},
+        RecordsAt{[&](int l) { return memory.second(touching[number(l)].line); }});
     Lanes p[8];
-    load_columns(where, p);
-    const PairAction action = act_on_wall<rolling, cohesion>(
-        law, a, {p[0], p[1], p[2]}, p[3], {p[4], p[5], p[6]}, share, step, remembered.memory);
-    CacheLine on_a[lane_width], kept[lane_width];
+    load_columns(RecordsAt{[&](int l) { return &point[number(l)]; }}, p);
+    const auto action = act_on_wall<rolling, cohesion, partial>(
+        law, a, LaneVec3{p[0], p[1], p[2]}, p[3], LaneVec3{p[4], p[5], p[6]}, share, step, remembered.memory);
+    ContactSum on_a[lane_width];
+    HalfLine kept[lane_width];
     records_of(action.force, action.torque_a, on_a);
-    remembered.to(action.normal_force, kept);
+    remembered.first_half(action.normal_force, kept);
     for (int l = 0; l < n; ++l) {
-      const_cast<CacheLine&>(*line[l]) = kept[l];
-      add(bodies.sum[bodies.body[who[l]->entry]], on_a[l]);
+      *memory.first(touching[k + l].line) = kept[l];
+      add(bodies.sum[body[l]], on_a[l]);
       seat[who[l]->seat].force += Vec3{on_a[l][0], on_a[l][1], on_a[l][2]};
+    }
+    if constexpr (whole) {
+      remembered.second_half(kept);
+      for (int l = 0; l < n; ++l) *memory.second(touching[k + l].line) = kept[l];
     }
   }
 }
@@ -140,9 +148,13 @@ void WallList::add_forces(const std::vector<ContactLaw>& laws, const std::vector
     if (candidate[t.candidate].group >= 0) ++n_in_group[candidate[t.candidate].group];
   for (Seat& s : seat) s.force = Vec3{};
   for (const Segment& segment : segments)
-    with_models(laws[segment.law], [&](auto rolling, auto cohesion) {
-      add_segment<decltype(rolling)::value, decltype(cohesion)::value>(segment, laws[segment.law], bodies,
-                                                                       step);
+    with_models(laws[segment.law], [&](auto rolling, auto cohesion, auto partial) {
+      constexpr Rolling r = decltype(rolling)::value;
+      constexpr Cohesion c = decltype(cohesion)::value;
+      constexpr bool p = decltype(partial)::value;
+      if constexpr (c == Cohesion::none && !p)
+        if (!bodies.levers()) return add_segment<r, c, p, false>(segment, laws[segment.law], bodies, step);
+      add_segment<r, c, p, true>(segment, laws[segment.law], bodies, step);
     });
 }
 
@@ -151,7 +163,7 @@ void WallList::collect(const ContactBodies& bodies, std::vector<ContactHistory::
     const Touching& t = touching[k];
     const Candidate& c = candidate[t.candidate];
     ContactHistory::OnWall contact{bodies.sphere[c.entry], c.wall, t.feature, {}, {}};
-    std::copy_n(memory[t.line].value, 8, contact.memory);
+    memory.read(t.line, contact.memory);
     std::copy_n(point[k].value, 3, contact.normal);
     out.push_back(contact);
   }

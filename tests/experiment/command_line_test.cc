@@ -135,6 +135,8 @@ TEST_F(CommandLineTest, BenchWritesItsResults) {
   EXPECT_EQ(list[0]["ranks"], 1);
   EXPECT_EQ(message({"bench", "quik"}),
             "benchmark \"quik\" is not known. Nearest valid benchmark: \"quick\".");
+  EXPECT_EQ(message({"bench", "quick", "--output", "there"}),
+            "option --output is not known; bench has none.");
 }
 
 TEST_F(CommandLineTest, EffectsAreListed) {

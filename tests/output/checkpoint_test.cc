@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "checkpoint_child.h"
+#include "seedflow/base/binary.h"
 #include "seedflow/output/folder.h"
 #include "testing.h"
 
@@ -137,6 +138,20 @@ TEST(Checkpoint, NothingToResumeFromIsBadInput) {
   TemporaryFolder folder;
   const std::string message =
       message_of<InputError>([&] { CheckpointReader reader(folder.path, MPI_COMM_SELF); });
+  EXPECT_CONTAINS(message, folder.path.string());
+  EXPECT_CONTAINS(message, "without --resume");
+}
+
+TEST(Checkpoint, AnotherLayoutIsCalledAnotherVersionNotDamage) {
+  TemporaryFolder folder;
+  write_numbered_checkpoint(folder.path, 1, MPI_COMM_SELF);
+  CheckpointReader reader(folder.path, MPI_COMM_SELF);
+  std::vector<double> numbers;  // the state begins with none
+  const std::string message = message_of<InputError>([&] {
+    reader.read(
+        [&] { read_binary(reader.stream("state"), numbers), read_binary(reader.stream("state"), numbers); });
+  });
+  EXPECT_CONTAINS(message, "another version");
   EXPECT_CONTAINS(message, folder.path.string());
   EXPECT_CONTAINS(message, "without --resume");
 }

@@ -40,37 +40,71 @@ TEST(LaneRoots, AgreeWithTheExactOnes) {
   EXPECT_EQ(root(Lanes{})[0], 0.0);
 }
 
+template <class Record, class T, int n>
+void expect_columns_and_back() {
+  Record record[width_of<T>], back[width_of<T>];
+  const Record* from[width_of<T>];
+  for (int l = 0; l < width_of<T>; ++l) {
+    from[l] = &record[l];
+    for (int c = 0; c < n; ++c) record[l][c] = 10 * l + c;
+  }
+  T column[n];
+  load_columns(from, column);
+  for (int c = 0; c < n; ++c) column[c] = column[c] + 1000.0;
+  if constexpr (n == 4)
+    store_records(back, column[0], column[1], column[2], column[3]);
+  else
+    store_records(back, column[0], column[1], column[2], column[3], column[4], column[5], column[6],
+                  column[7]);
+  for (int l = 0; l < width_of<T>; ++l)
+    for (int c = 0; c < n; ++c) EXPECT_EQ(back[l][c], 1000 + 10 * l + c);
+}
+
+TEST(CacheLines, HalvesAndPairsOfLanes) {
+  expect_columns_and_back<HalfLine, Lanes, 4>();
+  expect_columns_and_back<HalfLine, LanePair, 4>();
+  expect_columns_and_back<CacheLine, LanePair, 8>();
+}
+
 // The kernel's pairs against the law for single contacts written out with plain vectors, sticking and
-// sliding, levers as in rigid seeds.
-TEST(ContactKernel, LanesAgreeWithSingleContacts) {
+// sliding, with the levers of rigid seeds and without.
+template <bool levers>
+void expect_kernel_agrees_with_single_contacts() {
+  constexpr int width = width_of<LanePair>;
   Numbers random;
   ContactProperties properties;
   const ContactLaw law({}, {}, properties);
   const double step = 1e-6;
+  const auto first = [](const auto& record) { return Vec3{record[0], record[1], record[2]}; };
+  const auto second = [](const auto& record) { return Vec3{record[4], record[5], record[6]}; };
   for (int round = 0; round < 50; ++round) {
-    ContactSphere a[lane_width], b[lane_width];
-    ContactLine line[lane_width];
-    const CacheLine *motion_a[lane_width], *turning_a[lane_width], *motion_b[lane_width],
-        *turning_b[lane_width], *lines[lane_width];
-    for (int l = 0; l < lane_width; ++l) {
-      a[l].place(random.vector(1e-3), random.vector(0.3), random.vector(50), random.vector(2e-3));
-      const Vec3 away = random.vector(1);
-      b[l].place(a[l].position() + (0.95e-3 + random(0.02e-3)) / norm(away) * away, random.vector(0.3),
-                 random.vector(50), random.vector(2e-3));
-      a[l].motion[3] = 0.4e-3, b[l].motion[3] = 0.6e-3;
-      a[l].motion[7] = 2e-5, b[l].motion[7] = 5e-5;
-      a[l].turning[3] = 1e-11, b[l].turning[3] = 3e-11;
-      const Vec3 spring = random.vector(round % 2 ? 1e-7 : 1e-5);
-      line[l][0] = spring.x, line[l][1] = spring.y, line[l][2] = spring.z;
-      motion_a[l] = &a[l].motion, turning_a[l] = &a[l].turning;
-      motion_b[l] = &b[l].motion, turning_b[l] = &b[l].turning, lines[l] = &line[l];
+    ContactSphere sphere[2][width];
+    ContactMotion motion[2][width];
+    HalfLine centre[2][width], line[width];
+    const auto record = [](const Vec3& a, double b) { return HalfLine{{a.x, a.y, a.z, b}}; };
+    for (int l = 0; l < width; ++l) {
+      const Vec3 a = random.vector(1e-3), away = random.vector(1);
+      const Vec3 place[2] = {a, a + (0.95e-3 + random(0.02e-3)) / norm(away) * away};
+      for (int s : {0, 1}) {
+        const Vec3 v = random.vector(0.3), w = random.vector(50);
+        sphere[s][l] = record(place[s], s == 0 ? 0.4e-3 : 0.6e-3);
+        motion[s][l] = {{v.x, v.y, v.z, s == 0 ? 2e-5 : 5e-5, w.x, w.y, w.z, s == 0 ? 1e-11 : 3e-11}};
+        centre[s][l] = record(place[s] - (levers ? random.vector(2e-3) : Vec3{}), 0);
+      }
+      line[l] = record(random.vector(round % 2 ? 1e-7 : 1e-5), 0);
     }
-    LaneMemory kept(lines);
-    const PairAction action = act_between<Rolling::constant_torque, Cohesion::none>(
-        law, LaneSphere(motion_a, turning_a), LaneSphere(motion_b, turning_b), Lanes{} + 1.0, step,
-        kept.memory);
-    for (int l = 0; l < lane_width; ++l) {
-      const Vec3 d = a[l].position() - b[l].position();
+    const auto all = [](auto* records) { return RecordsAt{[=](int l) { return records + l; }}; };
+    const LaneSphere<LanePair, levers> a(all(sphere[0]), all(motion[0]), all(centre[0])),
+        b(all(sphere[1]), all(motion[1]), all(centre[1]));
+    LaneMemory<LanePair, false> kept(all(line), all(line));
+    const auto action =
+        act_between<Rolling::constant_torque, Cohesion::none>(law, a, b, LanePair{} + 1.0, step, kept.memory);
+    const auto of_lane = [](const VectorLanes<LanePair>& v, int l) {
+      const auto number = [&](const LanePair& p) { return l < lane_width ? p.a[l] : p.b[l - lane_width]; };
+      return Vec3{number(v.x), number(v.y), number(v.z)};
+    };
+    for (int l = 0; l < width; ++l) {
+      const Vec3 d = first(sphere[0][l]) - first(sphere[1][l]);
       const double ra = 0.4e-3, rb = 0.6e-3, distance = norm(d);
       ContactKinematics<double> c;
       c.normal = d / distance;
@@ -78,25 +112,32 @@ TEST(ContactKernel, LanesAgreeWithSingleContacts) {
       ASSERT_GT(c.overlap, 0);
       c.reduced_radius = ra * rb / (ra + rb);
       c.reduced_mass = 2e-5 * 5e-5 / 7e-5;
-      const Vec3 arm_a = -(ra - c.overlap / 2) * c.normal, arm_b = (rb - c.overlap / 2) * c.normal;
-      c.velocity = a[l].velocity() + cross(a[l].spin(), arm_a) - b[l].velocity() - cross(b[l].spin(), arm_b);
-      c.spin = a[l].spin() - b[l].spin();
-      const Vec3 lever_a{a[l].turning[4], a[l].turning[5], a[l].turning[6]},
-          lever_b{b[l].turning[4], b[l].turning[5], b[l].turning[6]};
-      const double to_a = norm(lever_a + arm_a), to_b = norm(lever_b + arm_b);
+      const Vec3 point = first(sphere[0][l]) - (ra - c.overlap / 2) * c.normal;
+      const Vec3 lever_a = point - first(centre[0][l]), lever_b = point - first(centre[1][l]);
+      c.velocity = first(motion[0][l]) + cross(second(motion[0][l]), lever_a) - first(motion[1][l]) -
+                   cross(second(motion[1][l]), lever_b);
+      c.spin = second(motion[0][l]) - second(motion[1][l]);
+      const double to_a = norm(lever_a), to_b = norm(lever_b);
       c.rolling_radius = 2 * to_a * to_b / (to_a + to_b);
       c.inertia = 1e-11 * 3e-11 / 4e-11;
       ContactMemory<double> memory;
-      memory.spring = {line[l][0], line[l][1], line[l][2]};
+      memory.spring = first(line[l]);
       const ContactAction<double> single =
           contact_action<Rolling::constant_torque, Cohesion::none>(law, c, step, memory);
-      const Vec3 torque = cross(lever_a + arm_a, single.force) + single.torque;
-      // Round-off of a few dozen operations.
-      EXPECT_LT(norm(action.force.get(l) - single.force), 1e-13 * norm(single.force));
-      EXPECT_LT(norm(action.torque_a.get(l) - torque), 1e-12 * norm(torque));
-      EXPECT_LT(norm(kept.memory.spring.get(l) - memory.spring), 1e-13 * norm(memory.spring));
+      const Vec3 torque_a = cross(lever_a, single.force) + single.torque,
+                 torque_b = -cross(lever_b, single.force) - single.torque;
+      // Round-off: a few dozen operations; places of 1e-3 m are subtracted to levers and overlaps of 1e-5 m.
+      EXPECT_LT(norm(of_lane(action.force, l) - single.force), 1e-11 * norm(single.force));
+      EXPECT_LT(norm(of_lane(action.torque_a, l) - torque_a), 1e-11 * norm(torque_a));
+      EXPECT_LT(norm(of_lane(action.torque_b, l) - torque_b), 1e-11 * norm(torque_b));
+      EXPECT_LT(norm(of_lane(kept.memory.spring, l) - memory.spring), 1e-12 * norm(memory.spring));
     }
   }
+}
+
+TEST(ContactKernel, AgreesWithSingleContacts) {
+  expect_kernel_agrees_with_single_contacts<true>();
+  expect_kernel_agrees_with_single_contacts<false>();
 }
 
 // Sub-spheres of a rigid seed are where the body carries them, though nothing of them is stored.

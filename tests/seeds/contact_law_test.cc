@@ -69,11 +69,11 @@ TEST(ContactLaw, LanesDoWhatOneContactDoes) {
           memory.spring.set(i, own[i].spring), memory.rolling.set(i, own[i].rolling);
           memory.attached[i] = own[i].attached;
         }
-        with_models(law, [&](auto rolling, auto cohesion) {
-          const auto all = contact_action<rolling(), cohesion()>(law, lanes, 1e-6, memory);
+        with_models(law, [&](auto rolling, auto cohesion, auto partial) {
+          const auto all = contact_action<rolling(), cohesion(), partial()>(law, lanes, 1e-6, memory);
           for (int i = 0; i < lane_width; ++i) {
             const double attached = own[i].attached;
-            const auto single = contact_action<rolling(), cohesion()>(law, one[i], 1e-6, own[i]);
+            const auto single = contact_action<rolling(), cohesion(), partial()>(law, one[i], 1e-6, own[i]);
             EXPECT_LE(norm(all.force.get(i) - single.force), 1e-12 * norm(single.force));
             EXPECT_LE(norm(all.torque.get(i) - single.torque), 1e-12 * norm(single.torque));
             EXPECT_LE(norm(memory.spring.get(i) - own[i].spring), 1e-12 * norm(own[i].spring));
@@ -92,8 +92,8 @@ TEST(ContactLaw, LanesDoWhatOneContactDoes) {
 
 double force_of(const ContactLaw& law, double overlap, ContactMemory<double>& memory) {
   double force = 0;
-  with_models(law, [&](auto rolling, auto cohesion) {
-    force = contact_action<rolling(), cohesion()>(law, pressed(overlap), 0, memory).force.z;
+  with_models(law, [&](auto rolling, auto cohesion, auto partial) {
+    force = contact_action<rolling(), cohesion(), partial()>(law, pressed(overlap), 0, memory).force.z;
   });
   return force;
 }

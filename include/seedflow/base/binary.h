@@ -10,8 +10,14 @@
 
 namespace seedflow {
 
+/// A saved state is not laid out as this program expects: cut off, damaged, or of another version.
+class StateFormatError : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 /// Plain values to and from a binary stream, bit by bit, for checkpoints read by the same build.
-/// Errors: RunError when the stream ends early or a size does not fit.
+/// Errors: StateFormatError when the stream ends early or a size does not fit.
 template <class T>
 void write_binary(std::ostream& out, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -22,7 +28,8 @@ template <class T>
 void read_binary(std::istream& in, T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
   if (!in.read(reinterpret_cast<char*>(&value), sizeof(T)))
-    throw RunError("The saved state ends too early: it is damaged or was cut off. Start again without it.");
+    throw StateFormatError(
+        "The saved state ends too early: it is damaged or was cut off. Start again without it.");
 }
 
 template <class T>
@@ -38,10 +45,12 @@ void read_binary(std::istream& in, std::vector<T>& values) {
   std::uint64_t n = 0;
   read_binary(in, n);
   if (n > (std::uint64_t(1) << 40) / sizeof(T))
-    throw RunError("The saved state is damaged: an array of impossible length. Start again without it.");
+    throw StateFormatError(
+        "The saved state is damaged: an array of impossible length. Start again without it.");
   values.resize(n);
   if (n > 0 && !in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(n * sizeof(T))))
-    throw RunError("The saved state ends too early: it is damaged or was cut off. Start again without it.");
+    throw StateFormatError(
+        "The saved state ends too early: it is damaged or was cut off. Start again without it.");
 }
 
 }  // namespace seedflow

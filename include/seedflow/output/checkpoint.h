@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -62,6 +63,9 @@ class CheckpointReader {
   void require_same_parameters(const std::string& parameters,
                                const std::vector<std::string>& may_change) const;
 
+  /// Calls load(), which reads from the streams. What it finds in another layout than it expects, though the
+  /// checksums agree, another version of the program has written: InputError.
+  void read(const std::function<void()>& load) const;
   /// This rank's stream. Errors: RunError if the checkpoint has none of that name.
   std::istream& stream(const std::string& name);
   std::string external(const std::string& prefix) const;

@@ -1,45 +1,64 @@
 #pragma once
 
 #include "seedflow/seeds/contact_law.h"
+#include "seedflow/seeds/contact_memory_pool.h"
 #include "seedflow/seeds/contact_sphere.h"
+#include "seedflow/seeds/lane_pair.h"
 
 namespace seedflow {
 
-/// lane_width contact spheres, one per lane.
+// Real: Lanes or LanePair. `levers`: bodies turn about other points than the centres of their sub-spheres.
+
+/// Sub-spheres, one per lane, and their bodies.
+template <class Real, bool levers>
 struct LaneSphere {
-  LaneVec3 position, velocity, spin, lever;
-  Lanes radius, mass, inertia;
+  VectorOf<Real> position, velocity, spin;  ///< velocity of the body's centre
+  VectorOf<Real> lever;                     ///< from the body's centre to the sub-sphere's
+  Real radius, mass, inertia;
 
-  SEEDFLOW_INLINE LaneSphere(const CacheLine* const (&motion)[lane_width],
-                             const CacheLine* const (&turning)[lane_width]) {
-    Lanes c[8];
-    load_columns(motion, c);
-    position = {c[0], c[1], c[2]}, radius = c[3], velocity = {c[4], c[5], c[6]}, mass = c[7];
-    load_columns(turning, c);
-    spin = {c[0], c[1], c[2]}, inertia = c[3], lever = {c[4], c[5], c[6]};
+  /// Records of the sub-spheres, their bodies' motion and (with levers) centres.
+  template <class Spheres, class Motions, class Centres>
+  SEEDFLOW_INLINE LaneSphere(const Spheres& sphere, const Motions& motion, const Centres& centre) {
+    Real s[4], m[8];
+    load_columns(sphere, s);
+    position = {s[0], s[1], s[2]}, radius = s[3];
+    load_columns(motion, m);
+    velocity = {m[0], m[1], m[2]}, mass = m[3], spin = {m[4], m[5], m[6]}, inertia = m[7];
+    if constexpr (levers) {
+      Real c[4];
+      load_columns(centre, c);
+      lever = position - VectorOf<Real>{c[0], c[1], c[2]};
+    }
   }
 };
 
-/// What lane_width contacts remember.
+/// What the contacts in the lanes remember; second halves where `whole`.
+template <class Real, bool whole>
 struct LaneMemory {
-  ContactMemory<Lanes> memory;
+  ContactMemory<Real> memory;
 
-  SEEDFLOW_INLINE explicit LaneMemory(const CacheLine* const (&line)[lane_width]) {
-    Lanes c[8];
-    load_columns(line, c);
-    memory.spring = {c[0], c[1], c[2]}, memory.rolling = {c[4], c[5], c[6]}, memory.attached = c[7];
+  template <class First, class Second>
+  SEEDFLOW_INLINE LaneMemory(const First& first, const Second& second) {
+    Real c[4];
+    load_columns(first, c);
+    memory.spring = {c[0], c[1], c[2]};
+    if constexpr (whole) {
+      load_columns(second, c);
+      memory.rolling = {c[0], c[1], c[2]}, memory.attached = c[3];
+    }
   }
-  SEEDFLOW_INLINE void to(Lanes normal_force, ContactLine (&line)[lane_width]) const {
-    const Lanes c[8] = {memory.spring.x,  memory.spring.y,  memory.spring.z,  normal_force,
-                        memory.rolling.x, memory.rolling.y, memory.rolling.z, memory.attached};
-    to_records(c, line);
+  SEEDFLOW_INLINE void first_half(const Real& normal_force, HalfLine* first) const {
+    store_records(first, memory.spring.x, memory.spring.y, memory.spring.z, normal_force);
+  }
+  SEEDFLOW_INLINE void second_half(HalfLine* second) const {
+    store_records(second, memory.rolling.x, memory.rolling.y, memory.rolling.z, memory.attached);
   }
 };
 
-SEEDFLOW_INLINE void records_of(const LaneVec3& force, const LaneVec3& torque,
-                                ContactSum (&record)[lane_width]) {
-  const Lanes c[8] = {force.x, force.y, force.z, Lanes{}, torque.x, torque.y, torque.z, Lanes{}};
-  to_records(c, record);
+template <class Real>
+SEEDFLOW_INLINE void records_of(const VectorLanes<Real>& force, const VectorLanes<Real>& torque,
+                                ContactSum* record) {
+  store_records(record, force.x, force.y, force.z, Real{}, torque.x, torque.y, torque.z, Real{});
 }
 
 SEEDFLOW_INLINE void add(ContactSum& sum, const ContactSum& part) {
@@ -47,78 +66,97 @@ SEEDFLOW_INLINE void add(ContactSum& sum, const ContactSum& part) {
 }
 
 /// Force on the first body, torques on both about the centres they turn about.
+template <class Real>
 struct PairAction {
-  LaneVec3 force, torque_a, torque_b;
-  Lanes normal_force;
+  VectorOf<Real> force, torque_a, torque_b;
+  Real normal_force;
 };
 
 /// Contact of two spheres. The contact point is the middle of the overlap; the rolling radius 2 R_a R_b /
-/// (R_a
-/// + R_b) is made of the distances from the centres of rotation to it.
-template <Rolling rolling, Cohesion cohesion>
-SEEDFLOW_INLINE PairAction act_between(const ContactLaw& law, const LaneSphere& a, const LaneSphere& b,
-                                       Lanes share, double step, ContactMemory<Lanes>& memory) {
-  const LaneVec3 d = a.position - b.position;
-  const Lanes square = dot(d, d);
-  const Lanes inverse_distance = inverse_root(lane_max(square, Lanes{} + 1e-200));
-  const Lanes distance = square * inverse_distance;
-  ContactKinematics<Lanes> c;
+/// (R_a + R_b) is made of the distances from the centres of rotation to it.
+template <Rolling rolling, Cohesion cohesion, bool partial = true, class Real, bool levers>
+SEEDFLOW_INLINE PairAction<Real> act_between(const ContactLaw& law, const LaneSphere<Real, levers>& a,
+                                             const LaneSphere<Real, levers>& b, const Real& share,
+                                             double step, ContactMemory<Real>& memory) {
+  using Vector = VectorOf<Real>;
+  const Vector d = a.position - b.position;
+  const Real square = dot(d, d);
+  const Real inverse_distance = inverse_root(lane_max(square, Real{} + 1e-200));
+  const Real distance = square * inverse_distance;
+  ContactKinematics<Real> c;
   c.normal = inverse_distance * d;
-  c.normal.z += select(distance > 0.0, Lanes{}, Lanes{} + 1.0);  // same centre: any direction will do
+  c.normal.z += select(distance > 0.0, Real{}, Real{} + 1.0);  // same centre: any direction will do
   c.overlap = a.radius + b.radius - distance;
   // Two reduced quantities for one reciprocal.
-  const Lanes radii = a.radius + b.radius, masses = a.mass + b.mass, both = inverse(radii * masses);
+  const Real radii = a.radius + b.radius, masses = a.mass + b.mass, both = inverse(radii * masses);
   c.reduced_radius = a.radius * b.radius * (both * masses);
   c.reduced_mass = a.mass * b.mass * (both * radii);
   c.share = share;
-  const LaneVec3 arm_a = (0.5 * c.overlap - a.radius) * c.normal,
-                 arm_b = (b.radius - 0.5 * c.overlap) * c.normal;
-  c.velocity = a.velocity + cross(a.spin, arm_a) - b.velocity - cross(b.spin, arm_b);
+  const Real to_a = a.radius - 0.5 * c.overlap, to_b = b.radius - 0.5 * c.overlap;
+  Vector lever_a, lever_b;
+  Real square_a, square_b, ra, rb;
+  if constexpr (levers) {
+    lever_a = a.lever - to_a * c.normal, lever_b = b.lever + to_b * c.normal;
+    c.velocity = a.velocity + cross(a.spin, lever_a) - b.velocity - cross(b.spin, lever_b);
+    if constexpr (rolling != Rolling::none) {
+      square_a = dot(lever_a, lever_a), square_b = dot(lever_b, lever_b);
+      ra = root(square_a), rb = root(square_b);
+    }
+  } else {
+    // Both levers lie along the normal.
+    c.velocity = a.velocity - b.velocity - cross(to_a * a.spin + to_b * b.spin, c.normal);
+    square_a = to_a * to_a, square_b = to_b * to_b;
+    ra = lane_max(to_a, -to_a), rb = lane_max(to_b, -to_b);
+  }
   c.spin = a.spin - b.spin;
-  const LaneVec3 lever_a = a.lever + arm_a, lever_b = b.lever + arm_b;
   if constexpr (rolling != Rolling::none) {
-    const Lanes square_a = dot(lever_a, lever_a), square_b = dot(lever_b, lever_b);
-    const Lanes ra = root(square_a), rb = root(square_b);
-    const Lanes levers = ra + rb, inertias = a.inertia + b.inertia, inverse_both = inverse(levers * inertias);
+    const Real sum = ra + rb, inertias = a.inertia + b.inertia, inverse_both = inverse(sum * inertias);
     c.rolling_radius = 2.0 * ra * rb * (inverse_both * inertias);
-    c.inertia = a.inertia * b.inertia * (inverse_both * levers);
+    c.inertia = a.inertia * b.inertia * (inverse_both * sum);
     if constexpr (rolling == Rolling::epsd) {
-      const Lanes ia = a.inertia + a.mass * square_a, ib = b.inertia + b.mass * square_b;
+      const Real ia = a.inertia + a.mass * square_a, ib = b.inertia + b.mass * square_b;
       c.contact_inertia = ia * ib * inverse(ia + ib);
     }
   }
-  const ContactAction<Lanes> action = contact_action<rolling, cohesion>(law, c, step, memory);
-  PairAction result;
+  const ContactAction<Real> action = contact_action<rolling, cohesion, partial>(law, c, step, memory);
+  PairAction<Real> result;
   result.force = action.force;
-  result.torque_a = cross(lever_a, action.force) + action.torque;
-  result.torque_b = -cross(lever_b, action.force) - action.torque;
+  if constexpr (levers) {
+    result.torque_a = cross(lever_a, action.force) + action.torque;
+    result.torque_b = -cross(lever_b, action.force) - action.torque;
+  } else {
+    const Vector turn = cross(action.force, c.normal);
+    result.torque_a = to_a * turn + action.torque;
+    result.torque_b = to_b * turn - action.torque;
+  }
   result.normal_force = dot(action.force, c.normal);
   return result;
 }
 
 /// Contact of a sphere with a wall at `distance` from its centre, whose surface moves with `wall_velocity`.
-template <Rolling rolling, Cohesion cohesion>
-SEEDFLOW_INLINE PairAction act_on_wall(const ContactLaw& law, const LaneSphere& a, const LaneVec3& normal,
-                                       Lanes distance, const LaneVec3& wall_velocity, Lanes share,
-                                       double step, ContactMemory<Lanes>& memory) {
-  ContactKinematics<Lanes> c;
+template <Rolling rolling, Cohesion cohesion, bool partial = true, class Real, bool levers>
+SEEDFLOW_INLINE PairAction<Real> act_on_wall(const ContactLaw& law, const LaneSphere<Real, levers>& a,
+                                             const VectorLanes<Real>& normal, const Real& distance,
+                                             const VectorLanes<Real>& wall_velocity, const Real& share,
+                                             double step, ContactMemory<Real>& memory) {
+  ContactKinematics<Real> c;
   c.normal = normal;
   c.overlap = a.radius - distance;
   c.reduced_radius = a.radius;
   c.reduced_mass = a.mass;
   c.share = share;
-  const LaneVec3 arm = -distance * normal;
-  c.velocity = a.velocity + cross(a.spin, arm) - wall_velocity;
+  VectorOf<Real> lever = -distance * normal;
+  if constexpr (levers) lever = a.lever + lever;
+  c.velocity = a.velocity + cross(a.spin, lever) - wall_velocity;
   c.spin = a.spin;
-  const LaneVec3 lever = a.lever + arm;
   if constexpr (rolling != Rolling::none) {
-    const Lanes square = dot(lever, lever);
+    const Real square = dot(lever, lever);
     c.rolling_radius = root(square);
     c.inertia = a.inertia;
     c.contact_inertia = a.inertia + a.mass * square;
   }
-  const ContactAction<Lanes> action = contact_action<rolling, cohesion>(law, c, step, memory);
-  PairAction result;
+  const ContactAction<Real> action = contact_action<rolling, cohesion, partial>(law, c, step, memory);
+  PairAction<Real> result;
   result.force = action.force;
   result.torque_a = cross(lever, action.force) + action.torque;
   result.normal_force = dot(action.force, c.normal);

@@ -2,15 +2,13 @@
 
 #include <vector>
 
-#include "seedflow/seeds/contact_sphere.h"
-
 namespace seedflow {
 
 /// All touching pairs with what they remember, by sub-sphere numbers (see Numbering), each pair once.
 struct ContactHistory {
   struct Pair {
     int first, second;  ///< first < second
-    double memory[8];   ///< a ContactLine
+    double memory[8];   ///< see ContactMemoryPool
   };
   struct OnWall {
     int sphere, wall, feature;

@@ -38,6 +38,10 @@ struct ContactLaw {
   /// Gap up to which a contact that once touched goes on acting [m]; 0 without cohesion. Lists must hold
   /// pairs up to this gap.
   double reach(double reduced_radius) const;
+  /// Contacts remember more than their tangential spring.
+  bool remembers_more() const {
+    return rolling == Rolling::epsd || cohesion != Cohesion::none || partial_slip > 0;
+  }
 };
 
 /// Elastic and cohesive normal force by the law's model.
@@ -52,9 +56,10 @@ SEEDFLOW_INLINE NormalForce<Real> normal_force_of(const ContactLaw& law, const C
     return hertz_force(law.young, c);
 }
 
-/// The law, without branches, once for one contact and for lanes. `step` [s]: time since the memory was last
-/// brought up to date, 0 to only evaluate. A contact with a gap that is not attached gives exactly zero and
-/// has its memory cleared, so unused lanes may hold any finite numbers with overlap <= 0 and attached = 0.
+/// The law, without branches, once for one contact and for lanes. `partial`: it may be one with partial slip.
+/// `step` [s]: time since the memory was last brought up to date, 0 to only evaluate. A contact with a gap
+/// that is not attached gives exactly zero and has its memory cleared, so unused lanes may hold any finite
+/// numbers with overlap <= 0 and attached = 0.
 ///
 /// The tangential spring is turned into the present tangent plane and, when the contact slides, shortened so
 /// that the spring alone carries Coulomb's limit. Damping acts only while sticking. Without cohesion the
@@ -65,7 +70,7 @@ SEEDFLOW_INLINE NormalForce<Real> normal_force_of(const ContactLaw& law, const C
 /// impulse of the damping is an integral over the overlap alone, which returns to zero: so a collision that
 /// slides throughout transfers mu m* (1 + e) v_n. The repulsive part with damping would give 3 % more at e =
 /// 0.526.
-template <Rolling rolling, Cohesion cohesion, class Real>
+template <Rolling rolling, Cohesion cohesion, bool partial = true, class Real>
 SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const ContactKinematics<Real>& c,
                                                    double step, ContactMemory<Real>& memory) {
   using Vector = VectorOf<Real>;
@@ -86,7 +91,7 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   const Real stiffness = 8 * law.shear * c.share * f.contact_radius;
   const Real touches = select(f.contact_radius > zero, zero + 1.0, zero);
   Vector spring = memory.spring;
-  if (cohesion == Cohesion::none && law.partial_slip > 0) {
+  if (partial && cohesion == Cohesion::none && law.partial_slip > 0) {
     partial_slip<Real>(law.partial_slip, c, slip, normal_speed, limit / lane_max(stiffness, zero + 1e-100),
                        step, spring, memory.attached);
     memory.attached *= touches;
@@ -116,18 +121,25 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   return result;
 }
 
-/// Calls f(rolling, cohesion) with the law's models as compile-time constants (std::integral_constant), so
-/// that a kernel is chosen once per law and models that are off cost nothing.
+/// What a contact of these models remembers beyond its tangential spring.
+template <Rolling rolling, Cohesion cohesion, bool partial>
+inline constexpr bool remembers_more = rolling == Rolling::epsd || cohesion != Cohesion::none || partial;
+
+/// Calls f(rolling, cohesion, partial slip) with the law's models as compile-time constants
+/// (std::integral_constant), so that a kernel is chosen once per law and models that are off cost nothing.
 template <class F>
 void with_models(const ContactLaw& law, const F& f) {
   const auto with_cohesion = [&](auto rolling) {
     switch (law.cohesion) {
-      case Cohesion::none:
-        return f(rolling, std::integral_constant<Cohesion, Cohesion::none>());
+      case Cohesion::none: {
+        const std::integral_constant<Cohesion, Cohesion::none> none;
+        return law.partial_slip > 0 ? f(rolling, none, std::true_type())
+                                    : f(rolling, none, std::false_type());
+      }
       case Cohesion::jkr:
-        return f(rolling, std::integral_constant<Cohesion, Cohesion::jkr>());
+        return f(rolling, std::integral_constant<Cohesion, Cohesion::jkr>(), std::false_type());
       case Cohesion::capillary:
-        return f(rolling, std::integral_constant<Cohesion, Cohesion::capillary>());
+        return f(rolling, std::integral_constant<Cohesion, Cohesion::capillary>(), std::false_type());
     }
   };
   switch (law.rolling) {

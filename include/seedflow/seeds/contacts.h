@@ -81,10 +81,13 @@ class Contacts {
   std::size_t bytes() const;
 
  private:
+  /// Numbers the entries that are marked with 0.
+  void make_entries(const Surroundings& now, std::vector<int>& entry_of);
   void list_pairs(const Surroundings& now, bool normalise, const ContactHistory& history,
-                  const std::vector<SpherePair>& found, const std::vector<int>& entry_of);
+                  const FoundPairs& found, const std::vector<int>& entry_of);
   void list_walls(const Surroundings& now, bool normalise, const ContactHistory& history,
                   const std::vector<WallCandidate>& found, const std::vector<int>& entry_of);
+  void place_bonded(int block, const SeedStore& store, int b);
   void place_rigid(int block, const SeedStore& store, int b);
   void place_plain_spheres(int block, const SeedStore& store, int b);
 

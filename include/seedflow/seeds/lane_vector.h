@@ -6,25 +6,25 @@
 
 namespace seedflow {
 
-/// One three-component vector per lane; a lane is a seed.
-struct LaneVec3 {
-  Lanes x = {}, y = {}, z = {};
+/// One three-component vector per lane. Real: Lanes, where a lane is a seed or a contact, or LanePair.
+template <class Real>
+struct VectorLanes {
+  Real x = {}, y = {}, z = {};
 
   void set(int lane, const Vec3& a) { x[lane] = a.x, y[lane] = a.y, z[lane] = a.z; }
   void add(int lane, const Vec3& a) { x[lane] += a.x, y[lane] += a.y, z[lane] += a.z; }
   Vec3 get(int lane) const { return {x[lane], y[lane], z[lane]}; }
 };
+using LaneVec3 = VectorLanes<Lanes>;
 
-/// The vector made of numbers of type Real: Vec3 for double, LaneVec3 for Lanes.
+/// The vector made of numbers of type Real: Vec3 for double, else VectorLanes.
 template <class Real>
-struct VectorOfReal;
+struct VectorOfReal {
+  using type = VectorLanes<Real>;
+};
 template <>
 struct VectorOfReal<double> {
   using type = Vec3;
-};
-template <>
-struct VectorOfReal<Lanes> {
-  using type = LaneVec3;
 };
 template <class Real>
 using VectorOf = typename VectorOfReal<Real>::type;
@@ -38,34 +38,44 @@ struct LaneQuaternion {
   Quaternion get(int lane) const { return {w[lane], v.get(lane)}; }
 };
 
-SEEDFLOW_INLINE LaneVec3 operator+(const LaneVec3& a, const LaneVec3& b) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real> operator+(const VectorLanes<Real>& a, const VectorLanes<Real>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-SEEDFLOW_INLINE LaneVec3 operator-(const LaneVec3& a, const LaneVec3& b) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real> operator-(const VectorLanes<Real>& a, const VectorLanes<Real>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-SEEDFLOW_INLINE LaneVec3 operator-(const LaneVec3& a) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real> operator-(const VectorLanes<Real>& a) {
   return {-a.x, -a.y, -a.z};
 }
-SEEDFLOW_INLINE LaneVec3 operator*(Lanes s, const LaneVec3& a) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real> operator*(const Real& s, const VectorLanes<Real>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
-SEEDFLOW_INLINE LaneVec3 operator*(double s, const LaneVec3& a) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real> operator*(double s, const VectorLanes<Real>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
-SEEDFLOW_INLINE LaneVec3& operator+=(LaneVec3& a, const LaneVec3& b) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real>& operator+=(VectorLanes<Real>& a, const VectorLanes<Real>& b) {
   return a.x += b.x, a.y += b.y, a.z += b.z, a;
 }
-SEEDFLOW_INLINE LaneVec3& operator-=(LaneVec3& a, const LaneVec3& b) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real>& operator-=(VectorLanes<Real>& a, const VectorLanes<Real>& b) {
   return a.x -= b.x, a.y -= b.y, a.z -= b.z, a;
 }
-SEEDFLOW_INLINE Lanes dot(const LaneVec3& a, const LaneVec3& b) {
+template <class Real>
+SEEDFLOW_INLINE Real dot(const VectorLanes<Real>& a, const VectorLanes<Real>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-SEEDFLOW_INLINE LaneVec3 cross(const LaneVec3& a, const LaneVec3& b) {
+template <class Real>
+SEEDFLOW_INLINE VectorLanes<Real> cross(const VectorLanes<Real>& a, const VectorLanes<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-SEEDFLOW_INLINE Lanes norm(const LaneVec3& a) {
+template <class Real>
+SEEDFLOW_INLINE Real norm(const VectorLanes<Real>& a) {
   return lane_sqrt(dot(a, a));
 }
 SEEDFLOW_INLINE LaneVec3 broadcast(const Vec3& a) {

@@ -15,7 +15,9 @@ struct RollingNumbers {
 
 /// Torque of constant size mu_r N R_r against the relative rotation (all of it, twisting included), at most
 /// what stops it within the step (model A of Ai et al. 2011, Powder Technol. 206, 269-282,
-/// doi:10.1016/j.powtec.2010.09.030). `inverse_step` [1/s]: any huge number asks for the full torque.
+/// doi:10.1016/j.powtec.2010.09.030). What other forces turn the body by within one step h is not resisted:
+/// on a slope a sphere at rest creeps at 5/2 g sin(slope) h. EPSD does not creep. `inverse_step` [1/s]: any
+/// huge number asks for the full torque.
 template <class Real>
 SEEDFLOW_INLINE VectorOf<Real> constant_rolling_torque(const RollingNumbers& n,
                                                        const ContactKinematics<Real>& c, Real repulsion,

@@ -21,17 +21,25 @@ struct SeedCloud {
   explicit SeedCloud(const std::vector<SeedStore>& stores);
   /// Takes the positions of the seed in this slot.
   void take(const SeedStore& store, int t, int slot);
+  int first_sphere(const SeedStore& store, int t, int slot) const {
+    return numbering.first_sphere[t] + slot * store.n_spheres();
+  }
   Vec3 position(int sphere) const { return {x[sphere], y[sphere], z[sphere]}; }
 };
 
 struct SpherePair {
   int first, second;  ///< first < second
 };
+struct FoundPairs {
+  std::vector<SpherePair> pair;  ///< sorted
+  std::vector<char> close;       ///< [pair] nearer than the inner gap
+  std::vector<int> begin;  ///< [seed] its first pair, of those whose first sub-sphere it owns; and the end
+};
 
-/// All pairs of sub-spheres of different seeds whose surfaces are nearer than the skin, sorted, of which at
-/// least one belongs to a seed marked in `own`. Seeds are compared first, in linked cells of the size of the
-/// largest; of two seeds whose balls come close only the sub-spheres in reach of the other's ball.
-std::vector<SpherePair> pairs_within(const std::vector<SeedStore>& stores, const SeedCloud& cloud,
-                                     double skin, const std::vector<char>& own);
+/// All pairs of sub-spheres of different seeds whose surfaces are nearer than the gap, of which at least one
+/// belongs to a seed marked in `own`. Seeds are compared first, in linked cells of the size of the largest;
+/// of two seeds whose balls come close only the sub-spheres in reach of the other's ball.
+FoundPairs pairs_within(const std::vector<SeedStore>& stores, const SeedCloud& cloud, double gap,
+                        double inner_gap, const std::vector<char>& own);
 
 }  // namespace seedflow

@@ -66,7 +66,7 @@ class SeedShare {
   double dearest = 1;
 };
 
-/// Brings the state of other ranks' sub-spheres that stand in pairs with own ones.
+/// Brings the state of other ranks' sub-spheres that stand in pairs with own ones, and of their bodies.
 class GhostExchange {
  public:
   /// From the lists; both sides of a pair find it, so both know what to send and to expect.
@@ -77,8 +77,9 @@ class GhostExchange {
  private:
   struct Neighbour {
     int rank;
-    std::vector<int> send, receive;  ///< entries
-    std::vector<ContactSphere> out, in;
+    std::vector<int> send, receive;                ///< entries
+    std::vector<int> send_bodies, receive_bodies;  ///< of these entries
+    std::vector<HalfLine> out, in;
   };
   std::vector<Neighbour> neighbours;
   std::vector<MPI_Request> requests;

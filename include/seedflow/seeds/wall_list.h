@@ -60,7 +60,7 @@ class WallList {
   };
   void find_touching(Segment& segment, const std::vector<Wall>& walls, const std::vector<Placement>& place,
                      const ContactBodies& bodies);
-  template <Rolling rolling, Cohesion cohesion>
+  template <Rolling rolling, Cohesion cohesion, bool partial, bool levers>
   void add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, double step);
 
   std::vector<Segment> segments;
