@@ -220,7 +220,7 @@ TEST(ContactLists, SpringsSurviveRemovalAndSorting) {
   for (int k = 0; k < 4; ++k) EXPECT_LT(norm(with[k] - without[k]), 1e-12);
 }
 
-// Kinetic energy dies away below 1e-9 J per seed and nothing creeps over 0.1 s.
+// Kinetic energy dies away below 1e-9 J per seed and nothing creeps by a thousandth of a diameter in 0.1 s.
 TEST(HeapAtRest, HoldsStill) {
   DemParameters p;
   p.time_step = 5e-6;
@@ -240,9 +240,9 @@ TEST(HeapAtRest, HoldsStill) {
   dem.positions(after);
   double creep = 0;
   for (std::size_t i = 0; i < before.size(); ++i) creep = std::max(creep, norm(after[i] - before[i]));
-  // A thousandth of a diameter would be seen in an angle of repose; a seed of 0.05 g oscillating with 1e-9 J
-  // moves by less than a micrometre.
-  EXPECT_LT(creep, 1e-6);
+  // A thousandth of a diameter would be seen in an angle of repose. Rolling friction of constant torque lets
+  // spheres creep at up to 5/2 g h, 12 um in 0.1 s on a vertical slope (see creep_test.cc).
+  EXPECT_LT(creep, 4e-6);
   EXPECT_LT(dem.energies().kinetic / dem.n_seeds(), 1e-9);
 }
 
