@@ -1,6 +1,7 @@
 #include "seedflow/coupling/coupled_step.h"
 
 #include <algorithm>
+#include <ctime>
 #include <sstream>
 
 #include "seedflow/base/binary.h"
@@ -19,6 +20,17 @@ Vec3 total(const std::vector<Vec3>& values) {
   for (const Vec3& v : values) sum += v;
   return sum;
 }
+
+/// Adds the CPU time of a scope.
+class CpuSeconds {
+ public:
+  explicit CpuSeconds(double& sum) : sum(sum), begin(std::clock()) {}
+  ~CpuSeconds() { sum += double(std::clock() - begin) / CLOCKS_PER_SEC; }
+
+ private:
+  double& sum;
+  std::clock_t begin;
+};
 
 }  // namespace
 
@@ -52,16 +64,26 @@ std::vector<double> CoupledStep::void_fraction() {
 }
 
 void CoupledStep::advance(double dt) {
-  place();
+  place(dt);
   look();
   body_loads.evaluate(all_bodies, seen, dem, dem.time(), dt);
+  if (solid_seeds)
+    for (std::size_t b = 0; b < all_bodies.size(); ++b)
+      if (solid_seeds->covers(all_bodies.position[b])) {
+        body_loads.force[b] = BodyForce();
+        body_loads.force[b].force = body_loads.hydrostatic[b];
+      }
   deposit(dt);
-  fluid.advance(dt, exchange);
+  {
+    const CpuSeconds timer(in_air);
+    fluid.advance(dt, exchange);
+  }
+  if (solid_seeds) solid_seeds->collect(fluid.velocity());
   push_seeds(dt);
   book(dt);
 }
 
-void CoupledStep::place() {
+void CoupledStep::place(double dt) {
   all_bodies.update(dem);
   weights.clear();
   for (const Vec3& x : all_bodies.position) {
@@ -71,12 +93,15 @@ void CoupledStep::place() {
       add_cell_kernel(weights, location, fluid.layout(), x);
     weights.next();
   }
-  if (const long lost = weights.normalize(); lost >= 0) {
+  outside = weights.normalize();
+  if (!outside.empty() && parameters.outside == "stop") {
     std::ostringstream text;
-    const Vec3& x = all_bodies.position[lost];
-    text << "Seed " << all_bodies[lost].seed << " has left the air's mesh at t = " << dem.time()
+    const Vec3& x = all_bodies.position[outside.front()];
+    text << "Seed " << all_bodies[outside.front()].seed << " has left the air's mesh at t = " << dem.time()
          << " s, position (" << x.x << ", " << x.y << ", " << x.z
-         << ") m.\nRemedy: close the domain with walls for the seeds.";
+         << ") m.\nRemedy: close the domain with walls for the seeds, or set Coupling/Outside the mesh = "
+            "still "
+            "air.";
     throw RunError(text.str());
   }
   exchange.clear(fluid.layout().size());
@@ -84,6 +109,10 @@ void CoupledStep::place() {
                 exchange.void_fraction);
   if (!parameters.two_way) exchange.void_fraction.assign(fluid.layout().size(), 1.0);
   volume_error = std::max(volume_error, solid.volume_error());
+  if (solid_seeds) {
+    solid_seeds->mark(dem, dt);
+    if (parameters.two_way) solid_seeds->deposit(exchange);
+  }
 }
 
 void CoupledStep::look() {
@@ -92,6 +121,7 @@ void CoupledStep::look() {
   seen.acceleration = weights.average(fluid.acceleration());
   seen.pressure_gradient = weights.average(fluid.pressure_gradient());
   seen.void_fraction = weights.average(exchange.void_fraction);
+  for (const long b : outside) seen.void_fraction[b] = 1;
 }
 
 void CoupledStep::deposit(double dt) {
@@ -130,7 +160,15 @@ void CoupledStep::push_seeds(double dt) {
         buoyant * all_bodies[b].buoyant_volume * (seen.pressure_gradient[b] - gradient_before[b]);
   wall_impulse = total(dem.wall_impulses());
   seeds_momentum = dem.momentum();
-  dem.set_loads(all_bodies.share_loads(body_loads.force, seen.velocity));
+  SphereLoads loads = all_bodies.share_loads(body_loads.force, seen.velocity);
+  if (solid_seeds)
+    for (int seed = 0; seed < dem.n_seeds(); ++seed) {
+      const Vec3 acceleration = solid_seeds->force()[seed] / dem.seed_template(seed).mass;
+      for (int s = dem.first_sphere(seed); s < dem.first_sphere(seed + 1); ++s)
+        loads.force[s] += dem.masses()[s] * acceleration;
+    }
+  dem.set_loads(loads);
+  const CpuSeconds timer(in_seeds);
   dem.advance(dt);
 }
 
@@ -140,17 +178,26 @@ void CoupledStep::book(double dt) {
   const std::vector<Vec3> drag_impulse = all_bodies.sum(on_spheres);
   const std::vector<Vec3> gradient = solid.average(all_bodies, fluid.pressure_gradient());
 
-  Vec3 to_seeds, buoyancy, on_the_way;
+  Vec3 to_seeds, buoyancy, on_the_way, still_air;
   double mass = 0;
+  auto next_outside = outside.begin();
   std::vector<Vec3> force_on_air(all_bodies.size());
   for (std::size_t b = 0; b < all_bodies.size(); ++b) {
     const BodyForce& f = body_loads.force[b];
     const Vec3 received = drag_impulse[b] + dt * (f.force - body_loads.hydrostatic[b]);
     body_force[b] = drag_impulse[b] / dt + f.force;
     buoyancy += dt * body_loads.hydrostatic[b];
-    to_seeds += received;
     mass += all_bodies[b].mass;
     ledger.add_scale(norm(received) + norm(dt * body_loads.hydrostatic[b]));
+    if (next_outside != outside.end() && *next_outside == static_cast<long>(b)) {
+      ++next_outside;
+      // What the air has not yet had from a body that has just left the mesh is reckoned to the still air.
+      still_air += received - remainder[b];
+      to_seeds += remainder[b];
+      remainder[b] = Vec3();
+      continue;
+    }
+    to_seeds += received;
     if (!parameters.two_way) continue;
     Vec3 given = dt * (air_drag[b] * (all_bodies.velocity[b] - seen.velocity[b]) + explicit_on_air[b]);
     if (air.pressure_shared) given += dt * all_bodies[b].solid_volume * gradient[b];
@@ -165,7 +212,13 @@ void CoupledStep::book(double dt) {
   sum.gravity += dt * mass * gravity;
   sum.buoyancy += buoyancy;
   sum.walls += total(dem.wall_impulses()) - wall_impulse;
+  if (solid_seeds)
+    for (const Vec3& force : solid_seeds->force()) {
+      to_seeds += dt * force;
+      ledger.add_scale(norm(dt * force));
+    }
   sum.from_air += to_seeds;
+  sum.still_air += still_air;
   if (!parameters.two_way) return;
 
   const MomentumBalance<3>& balance = fluid.momentum_balance();

@@ -33,6 +33,9 @@ void CouplingParameters::declare(Parameters& p) {
       "A drag law wants the air's velocity as if the seed were absent. 'oseen' removes the seed's own "
       "steady disturbance, computed for the Gaussian exchange kernel in closed form; 'transient' the one "
       "that the forces and the path of the seed so far have built up.");
+  p.choice("Outside the mesh", outside, {"stop", "still air"},
+           "Bodies outside the air's mesh. 'stop': the run stops. 'still air': they move through air at rest "
+           "that nobody computes; they are counted, and what it does to them is booked apart.");
   p.flag("Two-way", two_way, "Whether the air feels the seeds.");
   p.number("Lowest void fraction", lowest_void_fraction, "1", Range::between(0.0, 0.99),
            "The run stops where the void fraction would fall below: seeds' volume is never cut off.");

@@ -8,7 +8,7 @@ double MomentumLedger::relative(const Vec3& imbalance) const {
   return scale > 0 ? norm(imbalance) / scale : norm(imbalance);
 }
 double MomentumLedger::seeds_error() const {
-  return relative(sum.seeds_change - sum.gravity - sum.buoyancy - sum.walls - sum.from_air);
+  return relative(sum.seeds_change - sum.gravity - sum.buoyancy - sum.walls - sum.from_air - sum.still_air);
 }
 double MomentumLedger::air_error() const {
   return relative(sum.air_change - sum.sides - sum.from_seeds);
@@ -18,7 +18,7 @@ double MomentumLedger::exchange_error() const {
 }
 double MomentumLedger::total_error() const {
   return relative(sum.seeds_change + sum.air_change + sum.on_the_way - sum.gravity - sum.buoyancy -
-                  sum.walls - sum.sides);
+                  sum.walls - sum.sides - sum.still_air);
 }
 
 void MomentumLedger::save(std::ostream& out) const {

@@ -62,18 +62,19 @@ void PointExchange::clear() {
   entries.clear();
 }
 
-long PointExchange::normalize() {
+std::vector<long> PointExchange::normalize() {
   std::vector<double> sum(row_end.size(), 0.0);
   std::size_t e = 0;
   for (std::size_t p = 0; p < row_end.size(); ++p)
     for (; e < row_end[p]; ++e) sum[p] += entries[e].weight;
   sum_over_ranks(sum, comm);
+  std::vector<long> outside;
   e = 0;
   for (std::size_t p = 0; p < row_end.size(); ++p) {
-    if (!(sum[p] > 0.0)) return static_cast<long>(p);
+    if (!(sum[p] > 0.0)) outside.push_back(static_cast<long>(p));
     for (; e < row_end[p]; ++e) entries[e].weight /= sum[p];
   }
-  return -1;
+  return outside;
 }
 
 std::vector<Vec3> PointExchange::average(const std::vector<Tensor<1, 3>>& field) const {

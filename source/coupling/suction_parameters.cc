@@ -52,7 +52,7 @@ void SuctionParameters::declare(Parameters& p) {
   }
 }
 
-void SuctionParameters::check(const Parameters& p) const {
+void SuctionParameters::check(const Parameters& p, double largest_step) const {
   if (!(vacuum <= 0))
     p.reject("Suction/Vacuum", "a vacuum is below the surroundings",
              "use a negative pressure, such as -3 kPa");
@@ -61,8 +61,9 @@ void SuctionParameters::check(const Parameters& p) const {
              "the air would flow faster than a third of the speed of sound; the laws are those of "
              "incompressible air",
              "use a pressure above -7.5 kPa");
-  if (air_step > 5e-4)
-    p.reject("Air/Step", "a seed falls into a hole within a millisecond", "use at most 0.5 ms");
+  if (air_step > largest_step)
+    p.reject("Air/Step", "a seed falls into a hole within a millisecond",
+             largest_step > 5e-4 ? "use at most 1 ms" : "use at most 0.5 ms");
 }
 
 double leak_area(const SuctionParameters& p, const DeviceGeometry& device) {

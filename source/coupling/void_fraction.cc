@@ -38,12 +38,16 @@ void VoidFraction::compute(const Bodies& bodies, const std::vector<Vec3>& body_p
       }
     }
   }
-  if (exchange.normalize() >= 0) {
+  const std::vector<long> outside = exchange.normalize();
+  if (!outside.empty() && parameters.outside == "stop") {
     std::ostringstream text;
     text << "A seed has left the air's mesh at t = " << time
-         << " s.\nRemedy: close the domain with walls for the seeds, or make it larger.";
+         << " s.\nRemedy: close the domain with walls for the seeds, make it larger, or set Coupling/Outside "
+            "the "
+            "mesh = still air.";
     throw RunError(text.str());
   }
+  for (const long row : outside) taken[row] = 0;
   exchange.deposit(taken, eps);
 
   double solid = 0, lowest = 1;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "seedflow/base/binary.h"
+#include "seedflow/base/together.h"
 #include "seedflow/experiment/granular_report.h"
 #include "seedflow/output/folder.h"
 #include "seedflow/output/svg.h"
@@ -64,22 +66,26 @@ void Metering::declare(Parameters& p) {
   {
     const auto section = p.section("Air", "");
     p.choice(
-        "Model", air_model, {"hole sinks"},
-        "hole sinks: every hole is an opening with its potential flow, in milliseconds and without a mesh.");
+        "Model", air_model, {"hole sinks", "resolved"},
+        "hole sinks: every hole is an opening with its potential flow, in milliseconds and without a mesh. "
+        "resolved: the flow in seed chamber, holes and vacuum chamber is computed on a mesh, with the "
+        "seeds.");
   }
   {
     const auto section = p.section("Coupling", "How the air sees the seeds.");
     p.choice("Drag on", coupling.drag_on, {"seed", "sub-sphere"},
              "What is dragged as one body: the whole seed, or every sub-sphere as if alone (the paper).");
   }
+  resolved.declare(p);
   effects.declare(p);
 }
 
 void Metering::check(const Parameters& p) {
   granular.check(p, {"Metering/Disc material", "Metering/Housing material"});
   device.check(p);
-  suction.check(p);
+  suction.check(p, air_model == "resolved" ? 1e-3 : 5e-4);
   effects.prepare();
+  if (air_model == "resolved") check_resolved(p);
   const double d = granular.model.diameter;
   if (device.hole_diameter >= d)
     p.reject("Device/Hole diameter", "the seeds would be drawn through the holes",
@@ -141,12 +147,87 @@ FillingRoom Metering::room() const {
 }
 
 Metering::Gathered::Gathered(const Metering& m, EffectSet& all_effects)
-    : air(m.suction, m.device, m.coupling, disc_wall, 0.5 * m.granular.model.diameter, all_effects,
-          m.granular.dem.gravity),
-      record(m.device, m.stations(), 0.85 * m.granular.model.diameter, m.parts.tube_end,
-             m.granular.dem.gravity) {}
+    : record(m.device, m.stations(), 0.85 * m.granular.model.diameter, m.parts.tube_end,
+             m.granular.dem.gravity) {
+  if (m.air_model == "resolved")
+    resolved.emplace(m.resolved, m.suction, m.device, m.coupling, disc_wall, all_effects,
+                     m.granular.dem.gravity, MPI_COMM_WORLD);
+  else
+    sinks.emplace(m.suction, m.device, m.coupling, disc_wall, 0.5 * m.granular.model.diameter, all_effects,
+                  m.granular.dem.gravity);
+}
 
-GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& folder) const {
+Vec3 Metering::Gathered::advance(Dem& dem, double duration) {
+  return sinks ? sinks->advance(dem, duration) : resolved->advance(dem, duration);
+}
+const std::vector<SeedLoad>& Metering::Gathered::seed_loads() const {
+  return sinks ? sinks->seed_loads() : resolved->seed_loads();
+}
+const SuctionBalance& Metering::Gathered::chamber() const {
+  return sinks ? sinks->chamber() : resolved->chamber();
+}
+double Metering::Gathered::air_drawn() const {
+  return sinks ? sinks->air_drawn() : resolved->air_drawn();
+}
+double Metering::Gathered::work() const {
+  return sinks ? sinks->work() : resolved->work();
+}
+
+void Metering::check_resolved(const Parameters& p) const {
+  const auto unknown = [&](const char* entry, bool set) {
+    if (set)
+      p.reject(entry, "the computed air does not know it", "leave it at 0, or set Air/Model = hole sinks");
+  };
+  unknown("Suction/Fan flow", suction.fan_flow > 0);
+  unknown("Effects/Seal leak/Strength", suction.leak_strength > 0);
+  unknown("Effects/Suction line loss/Strength", suction.line_strength > 0);
+  unknown("Effects/Disc vibration/Strength", suction.vibration_strength > 0);
+  if (!suction.blocking)
+    p.reject("Suction/Seeds block holes", "seeds always block the holes of the computed air",
+             "set it to true, or Air/Model = hole sinks");
+}
+
+void Metering::write_air(Gathered& gathered, double time, const std::filesystem::path& output) const {
+  if (!gathered.resolved || granular.field_interval <= 0 || output.empty()) return;
+  const long now = static_cast<long>(std::floor(time / granular.field_interval + 1e-6));
+  if (now < gathered.next_field) return;
+  const std::string file = gathered.resolved->write(output.string(), "air", static_cast<unsigned int>(now));
+  gathered.next_field = now + 1;
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  together(MPI_COMM_WORLD, [&] {
+    if (rank != 0 || file.empty()) return;
+    if (!gathered.air_files && now > 1)
+      gathered.air_files.emplace(output / "air.pvd", time - 1e-9);
+    else if (!gathered.air_files)
+      gathered.air_files.emplace(output / "air.pvd");
+    gathered.air_files->add(time, std::filesystem::path(file).filename().string());
+  });
+}
+
+void Metering::Gathered::save_air(std::ostream& out) const {
+  std::ostringstream state;
+  if (sinks) sinks->save(state);
+  if (resolved) resolved->save(state);
+  const std::string text = state.str();
+  write_binary(out, resolved.has_value());
+  write_binary(out, std::vector<char>(text.begin(), text.end()));
+}
+
+void Metering::Gathered::load_air(std::istream& in) {
+  bool of_resolved = false;
+  std::vector<char> text;
+  read_binary(in, of_resolved);
+  read_binary(in, text);
+  // Of the other model, only a settled filling is read: its air has not begun.
+  if (of_resolved != resolved.has_value()) return;
+  std::istringstream state(std::string(text.begin(), text.end()));
+  if (sinks) sinks->load(state);
+  if (resolved) resolved->load(state);
+}
+
+GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& folder,
+                              const std::filesystem::path& output) const {
   GranularScene s;
   const double d = granular.model.diameter, room_edge = device.disc_radius + 3 * d;
   s.low = {-room_edge - d, parts.floor - d, -device.chamber_depth - d};
@@ -167,12 +248,13 @@ GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& f
     dem.set_wall_active(filling_wall, false);
     gathered.start = start;
   };
-  s.advance = [&gathered](Dem& dem, double duration) { return gathered.air.advance(dem, duration); };
-  s.after_interval = [this, &gathered, folder](Dem& dem, double time) {
-    gathered.record.update(dem, gathered.air.seed_loads(), time, turned_at(time), speed);
-    gathered.suction_sum += gathered.air.chamber().drop;
-    gathered.flow_sum += gathered.air.chamber().flow;
+  s.advance = [&gathered](Dem& dem, double duration) { return gathered.advance(dem, duration); };
+  s.after_interval = [this, &gathered, folder, output](Dem& dem, double time) {
+    gathered.record.update(dem, gathered.seed_loads(), time, turned_at(time), speed);
+    gathered.suction_sum += gathered.chamber().drop;
+    gathered.flow_sum += gathered.chamber().flow;
     ++gathered.intervals;
+    write_air(gathered, time, output);
     const std::vector<int>& carrier = gathered.record.hole_of_seed();
     for (int i = 0; i < dem.n_seeds(); ++i) {
       const int hole = carrier[i];
@@ -196,11 +278,11 @@ GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& f
     int one = 0, more = 0;
     for (const int n : gathered.record.carried_now()) one += n == 1, more += n > 1;
     double pressure = 0, drag = 0;
-    for (const SeedLoad& load : gathered.air.seed_loads())
+    for (const SeedLoad& load : gathered.seed_loads())
       pressure = std::max(pressure, norm(load.pressure)), drag = std::max(drag, norm(load.drag));
     return std::vector<double>{turned_at(time),
-                               gathered.air.chamber().drop,
-                               gathered.air.chamber().flow,
+                               gathered.chamber().drop,
+                               gathered.chamber().flow,
                                1.0 * one,
                                1.0 * more,
                                1.0 * static_cast<double>(gathered.record.landing_times().size()),
@@ -208,17 +290,19 @@ GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& f
                                drag};
   };
   s.save = [&gathered](std::ostream& out) {
-    gathered.air.save(out);
+    gathered.save_air(out);
     gathered.record.save(out);
     write_binary(out, gathered.last_time);
+    write_binary(out, gathered.next_field);
     write_binary(out, gathered.suction_sum);
     write_binary(out, gathered.flow_sum);
     write_binary(out, gathered.intervals);
   };
   s.load = [&gathered](std::istream& in) {
-    gathered.air.load(in);
+    gathered.load_air(in);
     gathered.record.load(in);
     read_binary(in, gathered.last_time);
+    read_binary(in, gathered.next_field);
     read_binary(in, gathered.suction_sum);
     read_binary(in, gathered.flow_sum);
     read_binary(in, gathered.intervals);
@@ -230,6 +314,8 @@ GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& f
                       "Air/",
                       "Effects/",
                       "Coupling/",
+                      "Device mesh/",
+                      "Linear solver/",
                       "Device/Vacuum from",
                       "Device/Vacuum to",
                       "Device/Hole diameter",

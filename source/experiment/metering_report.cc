@@ -96,6 +96,27 @@ LinePlot axis_plot(const Metering& m, double drop) {
   return plot;
 }
 
+/// Along the axes of a hole with a seed and an open one, at the end of a run with computed air.
+void add_hole_lines(const Metering& m, const fs::path& folder, Report& report) {
+  LinePlot pressure{"Pressure along a hole", {"z", "mm"}, {"pressure", "Pa"}};
+  LinePlot velocity{"Velocity along a hole", {"z", "mm"}, {"axial velocity", "m/s"}};
+  for (const auto& [name, file] :
+       {std::pair{"open", "open_hole.csv"}, {"with a seed", "hole_with_seed.csv"}}) {
+    if (!fs::exists(folder / file)) continue;
+    const Series line = read_series(folder / file);
+    std::vector<double> z;
+    for (const double metres : line["z"]) z.push_back(1e3 * metres);
+    pressure.series.push_back({name, z, line["pressure"]});
+    velocity.series.push_back({name, z, line["velocity"]});
+  }
+  if (pressure.series.empty()) return;
+  for (LinePlot* plot : {&pressure, &velocity}) {
+    plot->vertical = {{0, "mouth"}, {1e3 * m.device.thickness, "end"}};
+    plot->caption = "At the end of the run, on the axis, from the seeds' side into the vacuum chamber.";
+    report.add(*plot);
+  }
+}
+
 }  // namespace
 
 std::string in_words(const Share& s) {
@@ -179,7 +200,10 @@ void write_metering_report(const Metering& m, const Metering::Gathered& gathered
   for (const double q : series["air flow"]) litres.y.push_back(1e3 * q);
   flow.series = {litres};
   report.add(flow);
-  report.add(axis_plot(m, summary.observable("vacuum")));
+  if (gathered.resolved)
+    add_hole_lines(m, options.output, report);
+  else
+    report.add(axis_plot(m, summary.observable("vacuum")));
   report.add(energy_plot(series, run.n_seeds_at_start()));
   add_numbers(summary, report);
   report.paragraph(

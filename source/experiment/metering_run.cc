@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
 #include "seedflow/experiment/granular_report.h"
@@ -63,6 +64,73 @@ double mean_holding_force(const Metering& m, const SeedingRecord& record) {
 
 }  // namespace
 
+/// Pressure and velocity along the axis of a hole.
+struct HoleLine {
+  std::string file;
+  Series values;
+};
+
+/// Of a hole with a seed and of an open one under the vacuum, both behind the pool if there are such.
+/// Collective.
+std::vector<HoleLine> lines_through_holes(const Metering& m, const Metering::Gathered& gathered,
+                                          double time) {
+  std::vector<HoleLine> lines;
+  if (!gathered.resolved) return lines;
+  for (const bool covered : {false, true}) {
+    int hole = -1;
+    double best = -1;
+    for (int k = 0; k < m.device.n_holes(); ++k) {
+      const double angle = m.device.hole_angle(k, m.turned_at(time));
+      if (m.device.exposure(angle) < 1 || (gathered.record.carried_now()[k] > 0) != covered) continue;
+      // Farthest from the bottom, where other seeds stand around the hole.
+      const double away = std::abs(std::remainder(angle + 0.5 * M_PI, 2 * M_PI));
+      if (away > best) best = away, hole = k;
+    }
+    if (hole < 0) continue;
+    HoleLine line{
+        covered ? "hole_with_seed.csv" : "open_hole.csv",
+        {{{"z", "m"}, {"pressure", "Pa"}, {"velocity", "m/s"}}, std::vector<std::vector<double>>(3)}};
+    for (const auto& p : gathered.resolved->along_hole(hole)) {
+      line.values.values[0].push_back(p.z);
+      line.values.values[1].push_back(p.pressure);
+      line.values.values[2].push_back(p.velocity);
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Limits: solver tolerances for the air, round-off for what is bookkeeping.
+void add_computed_air(const ResolvedSuction& air, Summary& summary) {
+  const ResolvedSuction::Tally& t = air.totals();
+  const MomentumLedger ledger = air.momentum();
+  summary.conserve("air mass, every pressure test function, worst step", t.mass_error, 1e-6);
+  summary.conserve("air through ambient against suction, worst step", t.volume_error, 1e-5);
+  summary.conserve("air out of the rotor against into the stator, worst step", t.interface_error, 1e-8);
+  // With a frozen rotor the air's books hold rho omega x u of the turning frame beside what the seeds give.
+  const double frozen = air.is_frozen() ? std::numeric_limits<double>::infinity() : 1;
+  summary.conserve("momentum exchange seeds - air", ledger.exchange_error(), 1e-9 * frozen);
+  summary.conserve("momentum of seeds, air and walls", ledger.total_error(), 1e-6);
+  summary.observe("air_cells", air.n_cells(), "1");
+  summary.observe("air_steps", t.steps, "1");
+  summary.observe("largest_courant_number", t.courant, "1");
+  summary.observe("pressure_iterations_per_step", t.pressure_iterations / std::max(1.0, t.steps), "1");
+  summary.observe("momentum_iterations_per_step", t.momentum_iterations / std::max(1.0, t.steps), "1");
+  summary.observe("most_bodies_outside_the_air_mesh", t.most_outside, "1");
+  const Vec3 still = ledger.sum.still_air;
+  summary.observe("impulse_of_still_air_outside", norm(still), "N s");
+  const FluidStatistics s = air.statistics();
+  const double own = std::max(t.seconds, 1e-9);
+  summary.observe("part_of_time_air", 100 * t.seconds_in_air / own, "%");
+  summary.observe("part_of_time_seeds", 100 * t.seconds_in_seeds / own, "%");
+  summary.observe("part_of_time_coupling", 100 * (1 - (t.seconds_in_air + t.seconds_in_seeds) / own), "%");
+  const double of_air = s.momentum_assembly + s.momentum_solve + s.pressure_assembly + s.pressure_setup +
+                        s.pressure_solve + s.update + s.turning;
+  summary.observe("part_of_air_step_turning", 100 * s.turning / std::max(of_air, 1e-9), "%");
+  summary.performance.cell_steps_per_second_per_core =
+      air.n_cells() * t.steps / std::max(t.seconds_in_air, 1e-9);
+}
+
 std::vector<int> counts(const SeedingRecord& record, int Passage::*station) {
   std::vector<int> result;
   for (const Passage& p : record.passages())
@@ -97,15 +165,17 @@ void add_seeding(const Metering& m, const Metering::Gathered& gathered, double t
   summary.observe("seeds_laid", static_cast<double>(record.landing_times().size()), "1");
   const double n = static_cast<double>(std::max(1L, gathered.intervals));
   summary.observe("vacuum", gathered.suction_sum / n, "Pa");
-  summary.observe("air_flow", gathered.air.air_drawn() / time, "m3/s");
-  summary.observe("air_power", gathered.air.work() / time, "W");
+  summary.observe("air_flow", gathered.air_drawn() / time, "m3/s");
+  summary.observe("air_power", gathered.work() / time, "W");
   summary.observe("holding_force", mean_holding_force(m, record), "N");
   const CoveredHole seat(m.device.hole_radius(), m.device.chamfer, 0.5 * m.granular.model.diameter);
   summary.observe("pressure_times_hole_area", gathered.suction_sum / n * m.device.hole_area(), "N");
   summary.observe("pressure_times_seat_area",
                   gathered.suction_sum / n * M_PI * seat.seat_radius * seat.seat_radius, "N");
   // Round-off of a sum over the holes.
-  summary.conserve("air of holes and leak against the fan's", gathered.air.largest_flow_error(), 1e-10);
+  if (gathered.sinks)
+    summary.conserve("air of holes and leak against the fan's", gathered.sinks->largest_flow_error(), 1e-10);
+  if (gathered.resolved) add_computed_air(*gathered.resolved, summary);
 }
 
 void write_seeding_files(const Metering::Gathered& gathered, const fs::path& folder) {
@@ -141,8 +211,8 @@ int run_metering(const RunOptions& options) {
   Metering::Gathered gathered(metering, metering.effects);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const GranularScene scene =
-      metering.scene(gathered, rank == 0 && !options.dry_run ? fs::path(options.output) : fs::path());
+  const GranularScene scene = metering.scene(
+      gathered, rank == 0 && !options.dry_run ? fs::path(options.output) : fs::path(), options.output);
   GranularJob job(parameters, options, metering.granular, scene);
   if (options.dry_run) return job.say_what_it_will_be();
   Summary summary;
@@ -150,8 +220,10 @@ int run_metering(const RunOptions& options) {
   summary.text("air", metering.air_model);
   job.run.carry_out(parameters, options, summary);
   add_seeding(metering, gathered, job.run.time(), summary);
+  const std::vector<HoleLine> lines = lines_through_holes(metering, gathered, job.run.time());
   return job.finish(summary, [&] {
     write_seeding_files(gathered, options.output);
+    for (const HoleLine& line : lines) write_series(fs::path(options.output) / line.file, line.values);
     write_metering_report(metering, gathered, job.run, summary, options);
     const SeedingIndices behind = indices_of_counts(counts(gathered.record, &Passage::cleaned));
     std::cout << "behind the blade: " << behind.n << " holes";

@@ -1,9 +1,25 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "fluid_state.h"
 
 namespace seedflow {
+
+namespace {
+
+/// Largest factor between an entry of the diagonal and its older value; 1 without older values.
+double largest_change(const SparseMatrix& matrix, const std::vector<double>& older) {
+  double factor = 1;
+  if (older.empty()) return factor;
+  for (const std::uint32_t k : matrix.structure().diagonal) {
+    const double a = matrix.value[k], b = older[k];
+    if (a > 0 && b > 0) factor = std::max({factor, a / b, b / a});
+  }
+  return factor;
+}
+
+}  // namespace
 
 template <int dim, int degree>
 void Fluid<dim, degree>::Implementation::fail(const std::string& what, const std::string& remedy) const {
@@ -175,7 +191,9 @@ void Fluid<dim, degree>::Implementation::solve_pressure() {
   }
   {
     const CpuTimer timer(statistics.pressure_setup);
-    if (!multigrid_valid || multigrid_wanted) {
+    // A solid body that moves to other cells makes the multigrid useless there at once.
+    if (!multigrid_valid || multigrid_wanted ||
+        max(largest_change(*pressure_matrix, preconditioned_values)) > 10) {
       pressure_preconditioner->build(*pressure_matrix, boundary->pressure_fixed, singular);
       preconditioned_values.clear();
       multigrid_valid = true;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "seedflow/experiment/seeding_record.h"
+#include "seedflow/output/series.h"
 #include "tiny_run.h"
 
 namespace seedflow {
@@ -44,6 +45,18 @@ subsection Metering
 end
 )";
 
+// Cells of half a hole: enough to see it work.
+const std::vector<std::string> computed_air = {"Air/Model=resolved",
+                                               "Air/Step=1 ms",
+                                               "Device mesh/Hole sides=2",
+                                               "Device mesh/Hole rings=1",
+                                               "Device mesh/Mouth rings=2",
+                                               "Device mesh/Hole layers=2",
+                                               "Device mesh/Face cell=0.6 mm",
+                                               "Device mesh/Vacuum cell=4 mm",
+                                               "Device mesh/Largest cell=15 mm",
+                                               "Device mesh/Growth=2"};
+
 class MeteringRuns : public TinyRun {
  protected:
   void SetUp() override {
@@ -55,6 +68,13 @@ class MeteringRuns : public TinyRun {
     std::vector<std::string> all = arguments(set, name, more);
     all[0] = (folder / "device.prm").string();
     return all;
+  }
+  std::vector<std::string> with_computed_air(const std::vector<std::string>& set,
+                                             const std::string& name = "out",
+                                             const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = computed_air;
+    all.insert(all.end(), set.begin(), set.end());
+    return with(all, name, more);
   }
   void refused(const std::vector<std::string>& set, const std::string& message) {
     const RunOutcome result = run_here(with(set));
@@ -120,6 +140,51 @@ TEST_F(MeteringRuns, SameOnTwoRanks) {
   ASSERT_EQ(run_in_shell(command(args, 2), folder).status, exit_done);
   ASSERT_EQ(run_here(with({"Run/End time=0.1 s"}, "one")).status, exit_done);
   EXPECT_EQ(read_file(out("one") / "series.csv"), read_file(out("two") / "series.csv"));
+}
+
+TEST_F(MeteringRuns, ComputedAirRefusesWhatItDoesNotKnow) {
+  refused({"Air/Model=resolved", "Effects/Seal leak/Strength=1"}, "the computed air does not know it");
+  refused({"Air/Model=resolved", "Air/Step=2 ms"}, "use at most 1 ms");
+  refused({"Air/Model=resolved", "Suction/Seeds block holes=false"}, "seeds always block the holes");
+}
+
+// All balances of summary.json are within their limits, or the run would not end well.
+TEST_F(MeteringRuns, ComputedAirTakesSeeds) {
+  const RunOutcome result = run_here(with_computed_air({"Run/End time=60 ms", "Run/Field interval=30 ms"}));
+  ASSERT_EQ(result.status, exit_done) << result.message;
+  for (const char* name : {"air.pvd", "air_00002.pvtu", "open_hole.csv", "hole_with_seed.csv"})
+    EXPECT_TRUE(fs::exists(out() / name)) << name;
+  const Series series = read_series(out() / "series.csv");
+  EXPECT_GE(series["holes with one seed"].back(), 1);
+  const double seat = 3000 * M_PI * 1.69e-6;
+  EXPECT_GT(series["largest pressure force"].back(), 0.4 * seat);
+  EXPECT_LT(series["largest pressure force"].back(), 1.3 * seat);
+  const Summary s = Summary::read(out() / "summary.json");
+  EXPECT_GT(s.observable("air_flow"), 0);
+  EXPECT_EQ(s.observable("air_steps"), 60);
+}
+
+TEST_F(MeteringRuns, ComputedAirWithAFrozenRotorTakesSeeds) {
+  const RunOutcome result = run_here(with_computed_air({"Run/End time=60 ms", "Air/Rotor=frozen"}));
+  ASSERT_EQ(result.status, exit_done) << result.message;
+  EXPECT_GE(read_series(out() / "series.csv")["holes with one seed"].back(), 1);
+}
+
+// Iterative solvers: the same to their tolerance, not to the last bit.
+TEST_F(MeteringRuns, ComputedAirIsTheSameOnTwoRanksAndAfterAResumption) {
+  ASSERT_EQ(run_here(with_computed_air({"Run/End time=20 ms"}, "one")).status, exit_done);
+  ASSERT_EQ(run_in_shell(command(with_computed_air({"Run/End time=20 ms"}, "two"), 2), folder).status,
+            exit_done);
+  ASSERT_EQ(run_here(with_computed_air({"Run/End time=10 ms"}, "parts")).status, exit_done);
+  const RunOutcome resumed = run_here(with_computed_air({"Run/End time=20 ms"}, "parts", {"--resume"}));
+  ASSERT_EQ(resumed.status, exit_done) << resumed.message;
+  const Series one = read_series(out("one") / "series.csv");
+  for (const char* other : {"two", "parts"}) {
+    const Series same = read_series(out(other) / "series.csv");
+    ASSERT_EQ(same.n_rows(), one.n_rows()) << other;
+    for (const char* column : {"kinetic energy", "air flow", "largest pressure force"})
+      EXPECT_NEAR(same[column].back() / one[column].back(), 1, 0.02) << other << ", " << column;
+  }
 }
 
 TEST_F(MeteringRuns, LeakAndLineTakeVacuumAway) {

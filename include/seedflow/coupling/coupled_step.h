@@ -6,6 +6,7 @@
 #include "seedflow/coupling/bodies.h"
 #include "seedflow/coupling/body_loads.h"
 #include "seedflow/coupling/momentum_ledger.h"
+#include "seedflow/coupling/solid_seeds.h"
 #include "seedflow/coupling/void_fraction.h"
 #include "seedflow/fluid/fluid.h"
 
@@ -18,6 +19,8 @@ namespace seedflow {
 ///   -> average again -> DEM substeps -> what seeds received and the air did not yet, is handed to the next
 ///   step
 ///
+/// Bodies outside the mesh (Coupling/Outside the mesh) see air at rest, and nothing of them reaches the air.
+///
 /// The drag coefficient that the air sees is k M / (M + K dt) (M mass and K summed drag of the seed): the
 /// seed's own answer within the step, so that any drag strength is stable.
 class CoupledStep {
@@ -26,6 +29,10 @@ class CoupledStep {
   CoupledStep(const CouplingParameters& parameters, double kernel_width, Fluid<3>& fluid,
               const PointLocation<3>& location, Dem& dem, EffectSet& effects, const AirProperties& air,
               const Vec3& gravity, MPI_Comm comm);
+
+  /// Seeds are solid near the places of `seeds`, which must outlive this object: bodies there have no force
+  /// by effects but their hydrostatic buoyancy; what the air does to the seed is that of SolidSeeds.
+  void use(SolidSeeds& seeds) { solid_seeds = &seeds; }
 
   /// The void fraction that the air holds at present, on the mesh as it is now: of the seeds' places at the
   /// start of the last step (before the first one, their places now). For the air's initial state and after a
@@ -41,12 +48,17 @@ class CoupledStep {
   /// Force of the air on each body over the last step, buoyancy included [N].
   const std::vector<Vec3>& force_on_bodies() const { return body_force; }
   const MomentumLedger& momentum() const { return ledger; }
+  /// Number of bodies outside the mesh at the last step.
+  std::size_t n_outside() const { return outside.size(); }
+  /// CPU seconds on this rank in air and seeds; the rest of advance() is coupling.
+  double air_seconds() const { return in_air; }
+  double seed_seconds() const { return in_seeds; }
   double largest_volume_error() const { return volume_error; }
   void save(std::ostream& out) const;
   void load(std::istream& in);
 
  private:
-  void place();
+  void place(double dt);
   void look();
   void deposit(double dt);
   void push_seeds(double dt);
@@ -65,6 +77,7 @@ class CoupledStep {
   VoidFraction solid;
   PointExchange weights;  ///< rows: bodies
   BodyLoads body_loads;
+  SolidSeeds* solid_seeds = nullptr;
   Exchange<3> exchange;
   AirAtBodies seen;
   MomentumLedger ledger;
@@ -75,6 +88,8 @@ class CoupledStep {
   std::vector<Vec3> pressure_share;   ///< integral of (1 - eps) grad p over the body's volume, model A [N]
   std::vector<Vec3> remainder;        ///< received by the body and not yet by the air, on the air [N s]
   std::vector<Vec3> body_force;       ///< [N]
+  std::vector<long> outside;          ///< bodies outside the mesh, ascending
+  double in_air = 0, in_seeds = 0;
   Vec3 wall_impulse, seeds_momentum;  ///< before the step
   double volume_error = 0;
 };

@@ -16,6 +16,7 @@ struct CouplingParameters {
   std::string solid_volume = "seed";     ///< volume taken from the air: seed | sub-spheres
   std::string buoyancy_volume = "seed";  ///< volume of the pressure-gradient force: seed | sub-spheres | none
   std::string undisturbed_velocity = "oseen";  ///< none | oseen | transient
+  std::string outside = "stop";                ///< bodies outside the air's mesh: stop (the run) | still air
   bool two_way = true;                         ///< false: the air does not feel the seeds
   double lowest_void_fraction = 0.05;          ///< the run stops below [1]
 

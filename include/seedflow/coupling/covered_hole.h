@@ -26,7 +26,8 @@ namespace seedflow {
 ///
 /// Validity: gaps of up to about the hole's radius, where the curtain is the narrowest place; farther away
 /// only the order of magnitude and the decay (as r^-4) are right, at forces far below a seed's weight. Mach
-/// numbers below a third, i.e. dp below 7.5 kPa. The momentum of the air along the seed's surface is neglected.
+/// numbers below a third, i.e. dp below 7.5 kPa. The momentum of the air along the seed's surface is
+/// neglected.
 struct CoveredHole {
   double radius = 0;                       ///< a [m]
   double seat_radius = 0, seat_depth = 0;  ///< of the rim [m]; depth behind the front face

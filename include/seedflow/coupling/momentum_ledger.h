@@ -7,7 +7,7 @@
 namespace seedflow {
 
 /// Books every impulse [N s] of a run, so that nothing can be gained or lost unseen:
-///   seeds:  change of momentum = gravity + buoyancy + walls + from the air
+///   seeds:  change of momentum = gravity + buoyancy + walls + from the air + from still air outside the mesh
 ///   air:    change of momentum = sides + from the seeds
 ///   and     from the air + from the seeds + still on the way = 0.
 /// "On the way" is the remainder of the last step: what the seeds received and the air will receive in the
@@ -18,6 +18,7 @@ class MomentumLedger {
     Vec3 seeds_change, gravity, buoyancy, walls, from_air;  ///< the seeds
     Vec3 air_change, sides, from_seeds;                     ///< the air
     Vec3 on_the_way;
+    Vec3 still_air;  ///< to the seeds outside the mesh
   };
   Entries sum;
 

@@ -32,9 +32,9 @@ class PointExchange {
   void add(std::uint32_t quadrature_index, double weight) { entries.push_back({quadrature_index, weight}); }
   void next() { row_end.push_back(entries.size()); }
 
-  /// Scales every row to the sum 1 over all ranks. Returns the index of the first point that has no weight
-  /// anywhere (it lies outside the mesh), or -1. Collective.
-  long normalize();
+  /// Scales every row to the sum 1 over all ranks. Returns the indices of the points that have no weight
+  /// anywhere (they lie outside the mesh): averages there are zero, deposits go nowhere. Collective.
+  std::vector<long> normalize();
 
   std::size_t n_points() const { return row_end.size(); }
   std::size_t n_entries() const { return entries.size(); }

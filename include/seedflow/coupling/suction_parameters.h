@@ -27,7 +27,8 @@ struct SuctionParameters {
   double vibration_amplitude = 0.1e-3, vibration_frequency = 50;  ///< of the disc along its axis [m], [1/s]
 
   void declare(Parameters& parameters);
-  void check(const Parameters& parameters) const;
+  /// \param largest_step for the forces of this model of the air [s]
+  void check(const Parameters& parameters, double largest_step = 5e-4) const;
 };
 
 /// Pressure difference of the vacuum chamber and flow through fan and line, in balance:

@@ -15,8 +15,9 @@ class VoidFraction {
   VoidFraction(const CouplingParameters& parameters, double kernel_width, const PointLocation<3>& location,
                const QuadratureLayout<3>& layout, MPI_Comm comm);
 
-  /// Computes eps for bodies at the given places. RunError if a body is outside the mesh or eps falls below
-  /// its lower bound (where, which value, remedy). Collective.
+  /// Computes eps for bodies at the given places. Bodies outside the mesh take no volume, if
+  /// Coupling/Outside the mesh allows them. RunError if it does not or eps falls below its lower bound
+  /// (where, which value, remedy). Collective.
   void compute(const Bodies& bodies, const std::vector<Vec3>& body_position,
                const std::vector<Vec3>& sphere_position, double time, std::vector<double>& eps);
 

@@ -2,15 +2,18 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "seedflow/base/device_geometry.h"
+#include "seedflow/coupling/resolved_suction.h"
 #include "seedflow/coupling/suction_step.h"
 #include "seedflow/experiment/granular_run.h"
 #include "seedflow/experiment/seed_picture.h"
 #include "seedflow/experiment/seeding_quality.h"
 #include "seedflow/experiment/seeding_record.h"
+#include "seedflow/output/vtu.h"
 
 namespace seedflow {
 
@@ -45,7 +48,8 @@ struct Metering {
   SuctionParameters suction;
   CouplingParameters coupling;
   EffectSet effects;
-  std::string air_model = "hole sinks";
+  std::string air_model = "hole sinks";                 ///< hole sinks | resolved
+  ResolvedSuctionParameters resolved;                   ///< of the air "resolved"
   double speed = 30 * 2 * 3.14159265358979323846 / 60;  ///< of the disc [rad/s]
   double forward_speed = 3;                             ///< of the machine [m/s]
   std::string disc_material = "photosensitive resin", housing_material = "transparent plexiglass";
@@ -71,16 +75,34 @@ struct Metering {
   /// What the scene carries along.
   struct Gathered {
     Gathered(const Metering& metering, EffectSet& effects);
-    SuctionStep air;
+    /// One of the two is there, by Metering::air_model.
+    std::optional<SuctionStep> sinks;
+    std::optional<ResolvedSuction> resolved;
+    Vec3 advance(Dem& dem, double duration);
+    const std::vector<SeedLoad>& seed_loads() const;
+    const SuctionBalance& chamber() const;
+    double air_drawn() const;  ///< since the start [m3]
+    double work() const;       ///< of the vacuum on it [J]
+    void save_air(std::ostream& out) const;
+    void load_air(std::istream& in);
+
     SeedingRecord record;
+    std::optional<PvdSeries> air_files;
+    long next_field = 0;
     double start = 0, last_time = -1;
     double suction_sum = 0, flow_sum = 0;
     long intervals = 0;
   };
-  /// `gathered` must outlive the scene. Pictures are written into the folder unless it is empty.
-  GranularScene scene(Gathered& gathered, const std::filesystem::path& folder) const;
+  /// `gathered` must outlive the scene. Pictures are written into the folder unless it is empty; fields of
+  /// the computed air, by all ranks, into `output` unless it is empty.
+  GranularScene scene(Gathered& gathered, const std::filesystem::path& folder,
+                      const std::filesystem::path& output = {}) const;
   SeedPicture picture(const Dem& dem, double turned, const std::string& title) const;
   double turned_at(double time) const { return speed * time; }
+
+ private:
+  void check_resolved(const Parameters& parameters) const;
+  void write_air(Gathered& gathered, double time, const std::filesystem::path& output) const;
 };
 
 /// The device at rest on a test bench, in closed form: air flow, vacuum and holding force over the number of
