@@ -110,7 +110,7 @@ void add_computed_air(const ResolvedSuction& air, Summary& summary) {
   // With a frozen rotor the air's books hold rho omega x u of the turning frame beside what the seeds give.
   const double frozen = air.is_frozen() ? std::numeric_limits<double>::infinity() : 1;
   summary.conserve("momentum exchange seeds - air", ledger.exchange_error(), 1e-9 * frozen);
-  summary.conserve("momentum of seeds, air and walls", ledger.total_error(), 1e-6);
+  summary.conserve("momentum of seeds, air and walls", ledger.total_error(), 1e-6 * frozen);
   summary.observe("air_cells", air.n_cells(), "1");
   summary.observe("air_steps", t.steps, "1");
   summary.observe("largest_courant_number", t.courant, "1");

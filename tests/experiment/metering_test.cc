@@ -144,7 +144,7 @@ TEST_F(MeteringRuns, SameOnTwoRanks) {
 
 TEST_F(MeteringRuns, ComputedAirRefusesWhatItDoesNotKnow) {
   refused({"Air/Model=resolved", "Effects/Seal leak/Strength=1"}, "the computed air does not know it");
-  refused({"Air/Model=resolved", "Air/Step=2 ms"}, "use at most 1 ms");
+  refused({"Air/Model=resolved", "Air/Step=2 ms"}, "Use at most 1 ms");
   refused({"Air/Model=resolved", "Suction/Seeds block holes=false"}, "seeds always block the holes");
 }
 
