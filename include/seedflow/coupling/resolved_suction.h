@@ -33,14 +33,12 @@ struct ResolvedSuctionParameters {
 
 /// Seeds and the computed air of a metering disc: the flow through seed chamber, holes and vacuum chamber on
 /// the mesh of DeviceMesh, with
-///   * seeds solid near the mouths of the holes that face the vacuum (SolidSeeds): they shut the holes, and
-///   the
-///     pressure holds them;
-///   * elsewhere drag and whatever effects the run has on seeds or sub-spheres (Coupling/Drag on), with the
-///   kernel
-///     of the cell that contains them (Eq. 8) and a void fraction of 1, in model B: no pressure gradient acts
-///     on them but the hydrostatic one. (The void fraction of Eq. 5 has no meaning in cells smaller than a
-///     sub-sphere, and a kernel of a seed's width reaches through the disc.)
+///   * seeds solid near the mouths of the holes that face the vacuum (SolidSeeds): they shut the holes,
+///     and the pressure holds them;
+///   * elsewhere drag and whatever effects the run has on seeds or sub-spheres (Coupling/Drag on), with
+///     the kernel of the cell that contains them (Eq. 8) and a void fraction of 1, in model B: no
+///     pressure gradient acts on them but the hydrostatic one. (The void fraction of Eq. 5 has no meaning
+///     in cells smaller than a sub-sphere, and a kernel of a seed's width reaches through the disc.)
 ///   * seeds outside the mesh, below the unloading point, in still air.
 ///
 /// Rotor "sliding": every step the mesh turns to the disc's angle at the end of the step. Rotor "frozen": the
