@@ -8,6 +8,7 @@
 #include <memory>
 #include <sstream>
 
+#include "holed_disc.h"
 #include "seedflow/coupling/covered_hole.h"
 #include "seedflow/seeds/template_parameters.h"
 
@@ -45,22 +46,8 @@ struct OneHole {
     dem_parameters.time_step = 5e-6;
     effects.prepare();
     dem = std::make_unique<Dem>(dem_parameters);
-    Material seed, resin{"resin", 1180, 0.38, 1.5e7};
-    seed.shear_modulus = 1.5e6;
-    const int of_seed = dem->add_material(seed), of_disc = dem->add_material(resin);
-    dem->set_contact(of_seed, of_disc, {0.5, 0.4, 0.0});
-    Plate plate;
-    plate.centre = {0, 0, 0.5 * device.thickness};
-    plate.normal = {0, 0, -1};
-    plate.thickness = device.thickness;
-    plate.outline = DiscOutline{device.disc_radius};
-    HoleList holes;
-    holes.centre = {{device.pitch_radius, 0}};
-    plate.holes = holes;
-    plate.hole_radius = device.hole_radius();
-    plate.chamfer_width = plate.chamfer_depth = device.chamfer;
-    dem->add_wall(Wall("disc", plate, of_disc,
-                       speed > 0 ? WallMotion::rotation({0, 0, 0}, {0, 0, speed}) : WallMotion()));
+    int of_seed = 0;
+    test::add_holed_disc(*dem, device, speed, of_seed);
     const CoveredHole seat(device.hole_radius(), device.chamfer, 2e-3);
     seat_area = M_PI * seat.seat_radius * seat.seat_radius;
     SeedTemplateParameters model;

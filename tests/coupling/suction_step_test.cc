@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "holed_disc.h"
 #include "seedflow/seeds/template_parameters.h"
 
 namespace seedflow {
@@ -32,22 +33,8 @@ struct SeatedSeed {
     parameters.gravity = {0, -9.81, 0};
     parameters.time_step = 5e-6;
     Dem dem(parameters);
-    Material seed, resin{"resin", 1180, 0.38, 1.5e7};
-    seed.shear_modulus = 1.5e6;
-    const int of_seed = dem.add_material(seed), of_disc = dem.add_material(resin);
-    dem.set_contact(of_seed, of_disc, {0.5, 0.4, 0.0});
-    Plate plate;
-    plate.centre = {0, 0, 0.5 * device.thickness};
-    plate.normal = {0, 0, -1};
-    plate.thickness = device.thickness;
-    plate.outline = DiscOutline{device.disc_radius};
-    HoleList holes;
-    holes.centre = {{device.pitch_radius, 0}};
-    plate.holes = holes;
-    plate.hole_radius = device.hole_radius();
-    plate.chamfer_width = plate.chamfer_depth = device.chamfer;
-    const int disc = dem.add_wall(Wall(
-        "disc", plate, of_disc, speed > 0 ? WallMotion::rotation({0, 0, 0}, {0, 0, speed}) : WallMotion()));
+    int of_seed = 0;
+    const int disc = test::add_holed_disc(dem, device, speed, of_seed);
     device.drilled = 1;
     SeedTemplateParameters model;
     model.n_spheres = n_spheres;
