@@ -59,6 +59,36 @@ TEST(RotorMpi, FreeStreamThroughTurningRing) {
   }
 }
 
+/// The same in space, through a cylinder with hanging nodes at arbitrary angles, and through a plane; there
+/// the square turns by quarters, so that no part of it is without partner (it would be a wall).
+TEST(RotorMpi, FreeStreamInSpace) {
+  const dealii::Tensor<1, 3> stream({1, 0.5, 0.3});
+  const auto expect_kept = [&](Domain<3>& domain, double turn) {
+    const double dt = 0.05;
+    Fluid<3> fluid(parameters("*: velocity inlet, 1, 0.5, 0.3", 1e-3), domain);
+    fluid.set_rotor_motion({Mode::sliding, turn / dt});
+    fluid.set_initial(
+        0, [&](const auto&) { return stream; }, [](const auto&) { return 0.0; });
+    for (int s = 1; s <= 5; ++s) {
+      fluid.turn_to(turn * s);
+      fluid.advance(dt, {});
+      expect_mass_kept(fluid);
+      double largest = 0;
+      for (const auto& u : fluid.velocity()) largest = std::max(largest, (u - stream).norm());
+      EXPECT_LT(largest, 1e-10) << turn << " step " << s;
+    }
+  };
+  const auto cylinder = tube(0.4, 0.7, 1, 16, 24, 0);
+  for (const auto& cell : cylinder->triangulation().active_cell_iterators())
+    if (cell->is_locally_owned() && std::abs(std::atan2(cell->center()[1], cell->center()[0])) < 1)
+      cell->set_refine_flag();
+  cylinder->triangulation().execute_coarsening_and_refinement();
+  expect_kept(*cylinder, 0.15);
+  const auto plane = blocks(1, 3, 1, 4, 0.1);
+  refine_some(*plane);
+  expect_kept(*plane, dealii::numbers::PI / 2);
+}
+
 /// Air blown across a turning cylinder: mass and momentum balance although the interface cuts through the
 /// wake.
 TEST(RotorMpi, CrossFlowBalances) {

@@ -174,6 +174,58 @@ inline std::unique_ptr<Domain<3>> blocks(double lower, int n_lower, double upper
   return domain;
 }
 
+/// 3D: air over a disc in z = 0, between the radii `a` and `b`; what lies below the last of the heights
+/// `below` turns, the rest, up to the last of `above`, stands. `n_below` and `n_above` cells around, `across`
+/// from radius to radius. Sides "disc", "below" and "above" (both cylinders), "lid", "rotor top", "stator
+/// bottom".
+inline std::unique_ptr<Domain<3>> disc_and_air(double a, double b, int n_below, int n_above, int across,
+                                               const std::vector<double>& below,
+                                               const std::vector<double>& above,
+                                               MPI_Comm comm = MPI_COMM_WORLD) {
+  const auto shell = [=](int around, const std::vector<double>& heights, dealii::Triangulation<3>& mesh) {
+    std::vector<dealii::Point<3>> x;
+    std::vector<dealii::CellData<3>> cells;
+    for (const double z : heights)
+      for (int i = 0; i < around; ++i)
+        for (int k = 0; k <= across; ++k) {
+          const double r = a + (b - a) * k / across, t = 2 * dealii::numbers::PI * i / around;
+          x.emplace_back(r * std::cos(t), r * std::sin(t), z);
+        }
+    for (int j = 0; j + 1 < int(heights.size()); ++j)
+      for (int i = 0; i < around; ++i)
+        for (int k = 0; k < across; ++k) {
+          dealii::CellData<3> c;
+          for (int v = 0; v < 8; ++v)
+            c.vertices[v] =
+                ((j + (v >> 2)) * around + (i + (v >> 1 & 1)) % around) * (across + 1) + k + (v & 1);
+          cells.push_back(c);
+        }
+    mesh.create_triangulation(x, cells, dealii::SubCellData());
+  };
+  dealii::Triangulation<3> rotor_mesh, stator_mesh, both;
+  shell(n_below, below, rotor_mesh);
+  shell(n_above, above, stator_mesh);
+  const double middle = below.back(), top = above.back();
+  join<3>(
+      rotor_mesh, stator_mesh,
+      [=](const dealii::Point<3>& x, bool turns) {
+        if (x[2] < 1e-9) return 0;
+        if (x[2] > top - 1e-9) return 3;
+        if (std::abs(x[2] - middle) < 1e-9) return turns ? 4 : 5;
+        return turns ? 1 : 2;
+      },
+      both);
+  auto domain = std::make_unique<Domain<3>>(
+      both,
+      std::map<dealii::types::boundary_id, std::string>{
+          {0, "disc"}, {1, "below"}, {2, "above"}, {3, "lid"}, {4, "rotor top"}, {5, "stator bottom"}},
+      std::vector<std::string>(), comm);
+  Rotor<3> rotor;
+  rotor.pairs = {{"rotor top", "stator bottom"}};
+  domain->set_rotor(rotor);
+  return domain;
+}
+
 /// Refines some cells at the interface of either side: hanging nodes there.
 template <int dim>
 void refine_some(Domain<dim>& domain) {
