@@ -61,6 +61,7 @@ void Dem::remove_seeds(const std::vector<int>& seeds) {
     for (std::size_t slot = 0; slot < from[t].size(); ++slot) slots[store[t].seed[slot]].slot = slot;
   }
   parked.renumber(new_number);
+  forces_known = false;  // the neighbours' hold what the removed seeds pressed with
   arranged_at = -1;
 }
 

@@ -115,7 +115,6 @@ SeedState Dem::seed_state(int seed) const {
 }
 
 Vec3 Dem::contact_force(int seed) const {
-  if (!forces_known) return {};
   const SeedStore& s = store[slots[seed].store];
   const int lane = slots[seed].slot % lane_width, b = slots[seed].slot / lane_width;
   if (s.rigid) return s.body_force[b].force.get(lane);
