@@ -38,7 +38,7 @@ void ResolvedSuctionParameters::declare(Parameters& p) {
   }
   const auto solver = p.section("Linear solver", "How the linear systems of a step are solved.");
   p.choice("Backend", backend, {"trilinos", "petsc"},
-           "trilinos: algebraic multigrid ML, Ifpack; petsc: BoomerAMG of hypre, PETSc's ILU.");
+           "Algebraic multigrid of the pressure. trilinos: ML; petsc: BoomerAMG of hypre.");
   p.number("Pressure tolerance", pressure_tolerance, "1", {1e-15, 0.1},
            "Residual over right-hand side of the pressure equation.");
   p.number("Momentum tolerance", momentum_tolerance, "1", {1e-15, 0.1},

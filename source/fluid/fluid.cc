@@ -48,10 +48,8 @@ void Fluid<dim, degree>::Implementation::set_up() {
   domain_volume = domain.volume();
   momentum_matrix = std::make_unique<SparseMatrix>(space->structure);
   pressure_matrix = std::make_unique<SparseMatrix>(space->structure);
-  momentum_preconditioner = make_preconditioner(
-      parameters.backend,
-      parameters.momentum_preconditioner == "ilu" ? PreconditionerKind::ilu : PreconditionerKind::jacobi);
-  pressure_preconditioner = make_preconditioner(parameters.backend, PreconditionerKind::multigrid);
+  momentum_preconditioner = make_component_preconditioner(parameters.momentum_preconditioner);
+  pressure_preconditioner = make_multigrid(parameters.backend);
   preconditioned_values.clear();
   pressure_matrix_valid = multigrid_valid = false;
   multigrid_wanted = true;

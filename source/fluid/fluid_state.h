@@ -76,7 +76,8 @@ struct Fluid<dim, degree>::Implementation {
   Components rhs;
   NodalVector scalar_rhs, mass_defect;
   std::unique_ptr<SparseMatrix> momentum_matrix, pressure_matrix;
-  std::unique_ptr<Preconditioner> momentum_preconditioner, pressure_preconditioner;
+  std::unique_ptr<ComponentPreconditioner> momentum_preconditioner;
+  std::unique_ptr<Preconditioner> pressure_preconditioner;
   std::vector<double> preconditioned_values;  ///< matrix the multigrid was built from; empty: the present one
   int iterations_when_built = 0;
   bool pressure_matrix_valid = false, multigrid_valid = false, multigrid_wanted = true;

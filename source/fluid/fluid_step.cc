@@ -140,7 +140,7 @@ void Fluid<dim, degree>::Implementation::solve_momentum() {
     b[d] = &rhs[d];
     fixed[d] = &boundary->velocity_fixed[d];
   }
-  momentum_preconditioner->build(*momentum_matrix, space->constrained, false);
+  momentum_preconditioner->build(*momentum_matrix);
   statistics.momentum_iterations =
       stabilized_biconjugate_gradients(*momentum_matrix, *momentum_preconditioner, dim, fixed, x, b,
                                        parameters.momentum_tolerance, parameters.max_iterations);

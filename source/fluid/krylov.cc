@@ -97,8 +97,7 @@ int conjugate_gradients(const SparseMatrix& matrix, Preconditioner& precondition
 
 namespace {
 
-/// The components of a node side by side (the fourth is padding): one pass over the matrix serves them all.
-typedef double Block __attribute__((vector_size(4 * sizeof(double))));
+using Block = NodeBlock;
 
 Block block_abs(Block a) {
   return a < 0 ? -a : a;
@@ -109,7 +108,7 @@ Block block_max(Block a, Block b) {
 
 class BlockSystem {
  public:
-  BlockSystem(const SparseMatrix& a, Preconditioner& m, int n_components,
+  BlockSystem(const SparseMatrix& a, ComponentPreconditioner& m, int n_components,
               const std::vector<char>* const* fixed, const NodalVector& like)
       : matrix(a),
         preconditioner(m),
@@ -118,7 +117,7 @@ class BlockSystem {
         n_local(n + a.structure().partitioner->n_ghost_indices()),
         free(n),
         inverse_diagonal(n),
-        exchange{like, like} {
+        exchange(like) {
     for (std::uint32_t i = 0; i < n; ++i) {
       const double d = a.diagonal(i);
       inverse_diagonal[i] = d != 0 ? 1 / d : 1;
@@ -130,10 +129,10 @@ class BlockSystem {
     const SparsityStructure& s = matrix.structure();
     if (dealii::Utilities::MPI::n_mpi_processes(s.partitioner->get_mpi_communicator()) > 1)
       for (int c = 0; c < components; ++c) {
-        unpack(x, c, exchange[0]);
-        exchange[0].update_ghost_values();
-        for (std::uint32_t i = n; i < n_local; ++i) x[i][c] = exchange[0].local_element(i);
-        exchange[0].zero_out_ghost_values();
+        unpack(x, c, exchange);
+        exchange.update_ghost_values();
+        for (std::uint32_t i = n; i < n_local; ++i) x[i][c] = exchange.local_element(i);
+        exchange.zero_out_ghost_values();
       }
     const double* value = matrix.value.data();
     const std::uint32_t *start = s.row_start.data(), *column = s.column.data();
@@ -151,19 +150,12 @@ class BlockSystem {
     }
   }
   void precondition(Block* z, const Block* r) {
-    if (preconditioner.is_diagonal()) {
-      for (std::uint32_t i = 0; i < n; ++i) z[i] = inverse_diagonal[i] * r[i];
-      return;
-    }
-    for (int c = 0; c < components; ++c) {
-      unpack(r, c, exchange[0]);
-      preconditioner.apply(exchange[1], exchange[0]);
-      for (std::uint32_t i = 0; i < n; ++i) z[i][c] = exchange[1].local_element(i) * free[i][c];
-    }
+    preconditioner.apply(z, r);
+    for (std::uint32_t i = 0; i < n; ++i) z[i] *= free[i];
   }
   Block sum_ranks(Block a) const {
     double s[4] = {a[0], a[1], a[2], a[3]};
-    seedflow::sum_ranks(s, 4, exchange[0]);
+    seedflow::sum_ranks(s, 4, exchange);
     return Block{s[0], s[1], s[2], s[3]};
   }
   /// Largest residual over diagonal and largest solution, over nodes, components and ranks.
@@ -184,12 +176,12 @@ class BlockSystem {
       result[1] = std::max(result[1], solution[c]);
     }
     if (!finite) result[0] = INFINITY;
-    MPI_Allreduce(MPI_IN_PLACE, result.data(), 2, MPI_DOUBLE, MPI_MAX, exchange[0].get_mpi_communicator());
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), 2, MPI_DOUBLE, MPI_MAX, exchange.get_mpi_communicator());
     return result;
   }
 
   const SparseMatrix& matrix;
-  Preconditioner& preconditioner;
+  ComponentPreconditioner& preconditioner;
   const int components;
   const std::uint32_t n, n_local;
   std::vector<Block> free;  ///< 1 for free nodes, 0 for fixed ones
@@ -199,12 +191,12 @@ class BlockSystem {
     for (std::uint32_t i = 0; i < n; ++i) v.local_element(i) = x[i][c];
   }
   std::vector<double> inverse_diagonal;
-  NodalVector exchange[2];
+  NodalVector exchange;  ///< one component, for the other ranks
 };
 
 }  // namespace
 
-int stabilized_biconjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner,
+int stabilized_biconjugate_gradients(const SparseMatrix& matrix, ComponentPreconditioner& preconditioner,
                                      int n_systems, const std::vector<char>* const* fixed,
                                      NodalVector* const* solution, const NodalVector* const* rhs,
                                      double relative_tolerance, int max_iterations) {

@@ -35,11 +35,10 @@ void FluidParameters::declare(Parameters& p) {
            "Factor on the SUPG time scale.");
   const auto solver = p.section("Linear solver", "How the linear systems of a step are solved.");
   p.choice("Backend", backend, {"trilinos", "petsc"},
-           "trilinos: algebraic multigrid ML, Ifpack; petsc: BoomerAMG of hypre, PETSc's ILU.");
+           "Algebraic multigrid of the pressure. trilinos: ML; petsc: BoomerAMG of hypre.");
   p.choice("Momentum preconditioner", momentum_preconditioner, {"jacobi", "ilu"},
-           "jacobi is fastest while the Courant number is around 1; ilu (by the backend) for large steps or "
-           "strong "
-           "viscosity.");
+           "jacobi is fastest while the Courant number is around 1; ilu (incomplete factors without fill) "
+           "for large steps or strong viscosity.");
   p.number("Pressure tolerance", pressure_tolerance, "1", {1e-15, 0.1},
            "Residual over right-hand side of the pressure equation.");
   p.number("Momentum tolerance", momentum_tolerance, "1", {1e-15, 0.1},

@@ -89,7 +89,7 @@ Outcome solve(Domain<dim>& domain, double angle,
     space.scatter(r, group, b);
   }
   b.compress(dealii::VectorOperation::add);
-  const auto preconditioner = make_preconditioner("trilinos", PreconditionerKind::multigrid);
+  const auto preconditioner = make_multigrid("trilinos");
   preconditioner->build(matrix, fixed, false);
   Outcome result{0, conjugate_gradients(matrix, *preconditioner, fixed, false, p, b, 1e-12, 500)};
   EXPECT_GE(result.iterations, 0);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "seedflow/fluid/component_preconditioner.h"
 #include "seedflow/fluid/preconditioner.h"
 #include "seedflow/fluid/sparse_matrix.h"
 
@@ -20,8 +21,8 @@ int conjugate_gradients(const SparseMatrix& matrix, Preconditioner& precondition
 /// BiCGStab (van der Vorst 1992, doi:10.1137/0913035) for n systems with one matrix at once, until the
 /// residual divided by the diagonal of A is at most relative_tolerance times the largest |x| of all
 /// components in every node. Returns the number of iterations; -1 if not reached.
-int stabilized_biconjugate_gradients(const SparseMatrix& matrix, Preconditioner& preconditioner, int n,
-                                     const std::vector<char>* const* fixed, NodalVector* const* x,
+int stabilized_biconjugate_gradients(const SparseMatrix& matrix, ComponentPreconditioner& preconditioner,
+                                     int n, const std::vector<char>* const* fixed, NodalVector* const* x,
                                      const NodalVector* const* b, double relative_tolerance,
                                      int max_iterations);
 

@@ -22,8 +22,8 @@ struct FluidParameters {
   std::string subscales = "quasi-static";  ///< quasi-static: of the pressure only; dynamic: of all forces
   double streamline_upwinding = 1;         ///< factor on the SUPG time scale
 
-  std::string backend = "trilinos";  ///< trilinos: ML and Ifpack; petsc: BoomerAMG and PETSc's ILU
-  std::string momentum_preconditioner = "jacobi";  ///< jacobi, or ilu by the backend
+  std::string backend = "trilinos";                ///< trilinos: multigrid ML; petsc: BoomerAMG
+  std::string momentum_preconditioner = "jacobi";  ///< jacobi, or ilu
   double pressure_tolerance = 1e-9;                ///< residual / right-hand side, 2-norm
   double momentum_tolerance = 1e-11;  ///< diagonally scaled residual / velocity, largest component
   int max_iterations = 1000;

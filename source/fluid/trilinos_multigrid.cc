@@ -2,7 +2,6 @@
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
 #include <Epetra_Vector.h>
-#include <Ifpack_ILU.h>
 #include <ml_MultiLevelPreconditioner.h>
 #include <Teuchos_ParameterList.hpp>
 
@@ -15,8 +14,6 @@ namespace {
 
 class Trilinos : public Preconditioner {
  public:
-  explicit Trilinos(PreconditionerKind k) : kind(k) {}
-
   void build(const SparseMatrix& m, const std::vector<char>& fixed, bool singular) override {
     const SparsityStructure& s = m.structure();
     const int n = s.n_owned(), n_local = n + s.partitioner->n_ghost_indices();
@@ -27,7 +24,6 @@ class Trilinos : public Preconditioner {
     const double* values_of = patched ? rows_of.value.data() : m.value.data();
     if (!matrix || patched) {
       multigrid.reset();
-      ilu.reset();
       std::vector<int> ids(n_local);
       for (int i = 0; i < n_local; ++i) ids[i] = s.partitioner->local_to_global(i);
       communicator = std::make_unique<Epetra_MpiComm>(s.partitioner->get_mpi_communicator());
@@ -56,15 +52,6 @@ class Trilinos : public Preconditioner {
     if (singular && rows->MyGID(0))
       for (int k = start[0]; k < start[1]; ++k)
         if (column[k] == 0) value[k] *= 1.5;
-    if (kind == PreconditionerKind::ilu) {
-      ilu = std::make_unique<Ifpack_ILU>(matrix.get());
-      Teuchos::ParameterList list;
-      list.set("fact: level-of-fill", 0);
-      ilu->SetParameters(list);
-      ilu->Initialize();
-      ilu->Compute();
-      return;
-    }
     Teuchos::ParameterList list;
     ML_Epetra::SetDefaults("SA", list);
     list.set("ML output", 0);
@@ -84,25 +71,20 @@ class Trilinos : public Preconditioner {
 
   void apply(NodalVector& z, const NodalVector& r) override {
     Epetra_Vector in(View, *rows, const_cast<double*>(r.begin())), out(View, *rows, z.begin());
-    if (ilu)
-      ilu->ApplyInverse(in, out);
-    else
-      multigrid->ApplyInverse(in, out);
+    multigrid->ApplyInverse(in, out);
   }
 
  private:
-  PreconditionerKind kind;
   std::unique_ptr<Epetra_MpiComm> communicator;
   std::unique_ptr<Epetra_Map> rows, columns;
   std::unique_ptr<Epetra_CrsMatrix> matrix;
-  std::unique_ptr<Ifpack_ILU> ilu;
   std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> multigrid;
 };
 
 }  // namespace
 
-std::unique_ptr<Preconditioner> make_trilinos_preconditioner(PreconditionerKind kind) {
-  return std::make_unique<Trilinos>(kind);
+std::unique_ptr<Preconditioner> make_trilinos_multigrid() {
+  return std::make_unique<Trilinos>();
 }
 
 }  // namespace seedflow

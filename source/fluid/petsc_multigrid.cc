@@ -13,7 +13,6 @@ void check(PetscErrorCode code, const char* what) {
 
 class Petsc : public Preconditioner {
  public:
-  explicit Petsc(PreconditionerKind k) : kind(k) {}
   ~Petsc() override { destroy(); }
 
   void build(const SparseMatrix& m, const std::vector<char>& fixed, bool singular) override {
@@ -47,18 +46,14 @@ class Petsc : public Preconditioner {
           "MatCreateMPIAIJWithArrays");
     check(PCCreate(comm, &preconditioner), "PCCreate");
     check(PCSetOperators(preconditioner, matrix, matrix), "PCSetOperators");
-    if (kind == PreconditionerKind::ilu) {
-      check(PCSetType(preconditioner, PCBJACOBI), "PCSetType");
-    } else {
-      check(PCSetType(preconditioner, PCHYPRE), "PCSetType");
-      check(PCHYPRESetType(preconditioner, "boomeramg"), "PCHYPRESetType");
-      check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_strong_threshold", "0.5"), "options");
-      check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_coarsen_type", "HMIS"), "options");
-      check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_interp_type", "ext+i"), "options");
-      check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_agg_nl", "1"), "options");
-      check(PCSetOptionsPrefix(preconditioner, "seedflow_"), "PCSetOptionsPrefix");
-      check(PCSetFromOptions(preconditioner), "PCSetFromOptions");
-    }
+    check(PCSetType(preconditioner, PCHYPRE), "PCSetType");
+    check(PCHYPRESetType(preconditioner, "boomeramg"), "PCHYPRESetType");
+    check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_strong_threshold", "0.5"), "options");
+    check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_coarsen_type", "HMIS"), "options");
+    check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_interp_type", "ext+i"), "options");
+    check(PetscOptionsSetValue(nullptr, "-seedflow_pc_hypre_boomeramg_agg_nl", "1"), "options");
+    check(PCSetOptionsPrefix(preconditioner, "seedflow_"), "PCSetOptionsPrefix");
+    check(PCSetFromOptions(preconditioner), "PCSetFromOptions");
     check(PCSetUp(preconditioner), "PCSetUp");
     check(VecCreateMPIWithArray(comm, 1, n, PETSC_DETERMINE, nullptr, &in), "VecCreate");
     check(VecCreateMPIWithArray(comm, 1, n, PETSC_DETERMINE, nullptr, &out), "VecCreate");
@@ -80,7 +75,6 @@ class Petsc : public Preconditioner {
     if (in) VecDestroy(&in);
     if (out) VecDestroy(&out);
   }
-  PreconditionerKind kind;
   Mat matrix = nullptr;
   PC preconditioner = nullptr;
   Vec in = nullptr, out = nullptr;
@@ -88,8 +82,8 @@ class Petsc : public Preconditioner {
 
 }  // namespace
 
-std::unique_ptr<Preconditioner> make_petsc_preconditioner(PreconditionerKind kind) {
-  return std::make_unique<Petsc>(kind);
+std::unique_ptr<Preconditioner> make_petsc_multigrid() {
+  return std::make_unique<Petsc>();
 }
 
 }  // namespace seedflow
