@@ -77,7 +77,10 @@ class Table {
       count("none@null", o.none);
     } else if (one.kind == "outside") {
       count("flagged" + at, o.flagged), count("flagged-wrong" + at, o.wrong);
-      if (o.exponents > 0) count("exponent-within-0.1", o.exponent_right > 0);
+      if (o.exponents > 0)
+        count("exponent-within-0.1", o.exponent_right > 0),
+            count("exponent-within-0.1/" + one.truth.group, o.exponent_right > 0),
+            count("exponent-interval-coverage", o.exponent_covered > 0);
     } else if (one.kind == "confounded") {
       count("confounded-listed", o.listed), count("confounded-resolved", o.resolved);
     } else if (one.kind == "two") {
@@ -145,18 +148,28 @@ class Table {
   std::vector<double> before, after;
 };
 
-constexpr int width = 18;
+constexpr int width = 19;
 
 std::array<double, width> packed(const BenchmarkOutcome& o) {
-  return {double(o.right),     double(o.wrong),
-          double(o.none),      double(o.ambiguous),
-          double(o.flagged),   double(o.input),
-          double(o.listed),    double(o.resolved),
-          o.confidence,        double(o.confidence_right),
-          double(o.intervals), double(o.covered),
-          double(o.places),    double(o.place_right),
-          double(o.exponents), double(o.exponent_right),
-          o.gap_before,        o.gap_after};
+  return {double(o.right),
+          double(o.wrong),
+          double(o.none),
+          double(o.ambiguous),
+          double(o.flagged),
+          double(o.input),
+          double(o.listed),
+          double(o.resolved),
+          o.confidence,
+          double(o.confidence_right),
+          double(o.intervals),
+          double(o.covered),
+          double(o.places),
+          double(o.place_right),
+          double(o.exponents),
+          double(o.exponent_right),
+          o.gap_before,
+          o.gap_after,
+          double(o.exponent_covered)};
 }
 
 BenchmarkOutcome unpacked(const double* v) {
@@ -165,6 +178,7 @@ BenchmarkOutcome unpacked(const double* v) {
   o.listed = v[6], o.resolved = v[7], o.confidence = v[8], o.confidence_right = v[9];
   o.intervals = int(v[10]), o.covered = int(v[11]), o.places = int(v[12]), o.place_right = int(v[13]);
   o.exponents = int(v[14]), o.exponent_right = int(v[15]), o.gap_before = v[16], o.gap_after = v[17];
+  o.exponent_covered = int(v[18]);
   return o;
 }
 
@@ -222,12 +236,20 @@ Interval clopper_pearson(long hits, long of, double confidence) {
   return interval;
 }
 
-std::vector<BenchResult> run_diagnosis_benchmark(long draws, const std::filesystem::path& kept,
-                                                 std::ostream& out) {
+std::vector<BenchResult> run_diagnosis_benchmark(long draws, const std::string& only,
+                                                 const std::filesystem::path& kept, std::ostream& out) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const std::vector<std::vector<BenchmarkCase>> portions = portions_of(benchmark_cases(draws));
+  std::vector<BenchmarkCase> cases = benchmark_cases(draws);
+  cases.erase(std::remove_if(cases.begin(), cases.end(),
+                             [&](const auto& one) { return one.label().find(only) == std::string::npos; }),
+              cases.end());
+  if (cases.empty())
+    throw InputError("bench diagnose: --only \"" + only +
+                     "\": no case has these words. Try the name of an effect, \"null\", \"outside\", "
+                     "\"confounded\" or \"two\".");
+  const std::vector<std::vector<BenchmarkCase>> portions = portions_of(cases);
   int id = getpid();
   MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
   const auto folder =

@@ -25,7 +25,7 @@ std::vector<Placing> placings() {
   return {{"Added mass", "oscillating", {"Drag", "Pressure gradient"}},
           {"Pressure gradient", "oscillating", {"Drag", "Added mass"}},
           {"History force", "release", {"Drag", "Pressure gradient", "Added mass"}},
-          {"Saffman lift", "shear", {"Drag", "Pressure gradient", "Rotational drag"}},
+          {"Saffman lift", "slow shear", {"Drag", "Pressure gradient", "Rotational drag"}},
           {"Magnus lift", "spinning", {"Drag", "Pressure gradient", "Rotational drag"}},
           {"Rotational drag", "spinning", {"Drag", "Pressure gradient", "Added mass"}},
           {"Plane wall drag", "walls", {"Drag", "Pressure gradient"}},
@@ -66,7 +66,7 @@ std::vector<BenchmarkTruth> outsiders() {
   add("oscillating", sideways, "", 0);
   TruthSeed::Unknown drag;
   drag.drag_amplitude = 0.4, drag.drag_reference = 5, drag.drag_exponent = 0.8;
-  add("release", drag, "Reynolds number", 0.8);
+  add("wide release", drag, "Reynolds number", 0.8);
   TruthSeed::Unknown lift;
   lift.shear_amplitude = 0.03, lift.shear_exponent = 1.5;
   add("shear", lift, "shear Reynolds number", 1.5);

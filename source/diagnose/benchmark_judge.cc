@@ -113,7 +113,9 @@ BenchmarkOutcome judge(const BenchmarkCase& one, const Diagnose& diagnose, const
     ++outcome.exponents;
     for (const auto& factor : answer.law.factors)
       if (factor.group == one.truth.group)
-        outcome.exponent_right = std::abs(factor.exponent.value - one.truth.exponent) <= 0.1;
+        outcome.exponent_right = std::abs(factor.exponent.value - one.truth.exponent) <= 0.1,
+        outcome.exponent_covered =
+            factor.exponent.low <= one.truth.exponent && one.truth.exponent <= factor.exponent.high;
   }
   if (one.kind == "confounded" && outcome.ambiguous && answer.suggestion.found) {
     const BenchmarkData more =

@@ -39,6 +39,17 @@ std::string in_words(const LawSearch::Refined& refined, const LawSearch& search)
          (intervals.empty() ? "" : " (95 %)");
 }
 
+/// chi-square beyond the number of points by the stated uncertainties alone, inputs as they are said to be.
+double plain_excess(const ObservableModel& model, const DataNoise& noise, const Eigen::VectorXd& simulated) {
+  double sum = 0;
+  for (std::size_t i = 0; i < model.points().size(); ++i) {
+    const auto p = static_cast<Eigen::Index>(i);
+    if (std::isfinite(simulated[p]))
+      sum += std::pow((model.points()[i].value - simulated[p]) / noise.sigma(p), 2) - 1;
+  }
+  return sum;
+}
+
 /// A law that leaves more of the excess of chi-square is not worth adding.
 constexpr double least_share_left = 0.5;
 
@@ -78,13 +89,19 @@ InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& we
     if (!refined.deviation.empty() && score > best_score) best_score = score, best = refined;
   }
   if (best_score <= -1e300) return found;
-  const std::string text = in_words(best, search);
   const double excess = search.chi2_of_nothing() - best.points;
   if (best.chi2 - best.points > least_share_left * excess) {
-    answer.remarks.push_back(
-        "No law of the library describes what is missing. The nearest is not added: " + text + ".");
+    answer.remarks.push_back("No law of the library describes what is missing. The nearest is not added: " +
+                             in_words(best, search) + ".");
     return found;
   }
+  // Its numbers, with inputs as they act beside it, unless inputs then do the law's work.
+  search.refine_about(best.law);
+  const double gap = plain_excess(model, noise, responses.base());
+  if (const LawSearch::Refined again = search.refine(best.law);
+      !again.deviation.empty() &&
+      plain_excess(model, noise, model.predict(search.setting(again.law))) < least_share_left * gap)
+    best = again;
 
   const Setting setting = search.setting(best.law);
   found.found = true;
@@ -97,7 +114,7 @@ InferredLaw infer_law(ObservableModel& model, Responses& responses, Weighing& we
     const double e = best.law.exponent[g], se = 1.96 * best.deviation[i++];
     found.factors.push_back({Law::groups[g], {e, e - se, e + se}});
   }
-  found.text = text;
+  found.text = in_words(best, search);
   const Eigen::VectorXd after = model.predict(setting);
   answer.after.assign(after.data(), after.data() + after.size());
   for (const auto& [path, value] : setting.entries)

@@ -69,9 +69,11 @@ LawSearch::LawSearch(ObservableModel& model, Responses& responses, Weighing& wei
                      const Split& split)
     : model(model),
       responses(responses),
+      weighing(weighing),
       noise(noise),
       split(split),
-      nothing(weighing.linearise({}, {}, true)) {
+      nothing(weighing.linearise({}, {}, true)),
+      linear(nothing) {
   const auto& names = model.regimes();
   if (std::find(names.begin(), names.end(), "Reynolds number") == names.end()) return;
   const Eigen::VectorXd re = model.regime("Reynolds number");
@@ -97,16 +99,16 @@ Setting LawSearch::setting(const Law& law) const {
 
 LinearFit LawSearch::evaluate(const Eigen::VectorXd& value, const Eigen::MatrixXd& columns,
                               const Eigen::VectorXd& tolerance, const NoiseVariant& variant) {
-  LinearModel linear = nothing;
-  linear.residual += responses.base() - value;
-  const Eigen::Index q = linear.directions.cols();
-  linear.directions.conservativeResize(Eigen::NoChange, q + columns.cols());
-  linear.directions.rightCols(columns.cols()) = columns;
+  LinearModel with = linear;
+  with.residual += responses.base() - value;
+  const Eigen::Index q = with.directions.cols();
+  with.directions.conservativeResize(Eigen::NoChange, q + columns.cols());
+  with.directions.rightCols(columns.cols()) = columns;
   if (tolerance.size() > 0) {
-    linear.tolerance.conservativeResize(Eigen::NoChange, linear.tolerance.cols() + 1);
-    linear.tolerance.rightCols(1) = tolerance;
+    with.tolerance.conservativeResize(Eigen::NoChange, with.tolerance.cols() + 1);
+    with.tolerance.rightCols(1) = tolerance;
   }
-  return WhitenedModel(noise, variant, linear, split.all).full();
+  return WhitenedModel(noise, variant, with, split.all).full();
 }
 
 void LawSearch::prepare_library() {
@@ -273,10 +275,12 @@ LawSearch::Refined LawSearch::refine(const Law& start) {
   return best;
 }
 
-double LawSearch::chi2_of_nothing() {
-  return evaluate(responses.base(), Eigen::MatrixXd(responses.base().size(), 0), Eigen::VectorXd(),
-                  stated_noise)
-      .chi2;
+void LawSearch::refine_about(const Law& law) {
+  linear = weighing.linearise_about(setting(law));
+}
+
+double LawSearch::chi2_of_nothing() const {
+  return fit(noise, stated_noise, nothing, split.all).chi2;
 }
 
 }  // namespace seedflow

@@ -54,8 +54,11 @@ class LawSearch {
     std::vector<double> deviation;  ///< coefficient, then exponents of the groups it has
   };
   Refined refine(const Law& start);
+  /// From now on inputs act as they do beside this law, not as in the base model, where a drift that the law
+  /// makes does not exist.
+  void refine_about(const Law& law);
   /// chi-square without any law, as Refined::chi2.
-  double chi2_of_nothing();
+  double chi2_of_nothing() const;
 
   Setting setting(const Law& law) const;
   double reference(int group) const { return group == 0 ? reference_reynolds : group == 5 ? 1 : 0.1; }
@@ -67,9 +70,11 @@ class LawSearch {
 
   ObservableModel& model;
   Responses& responses;
+  Weighing& weighing;
   const DataNoise& noise;
   const Split& split;
   LinearModel nothing;  ///< nothing missing
+  LinearModel linear;   ///< the same, inputs as they act beside the law
   double reference_reynolds = 10;
 };
 

@@ -31,9 +31,8 @@ Setting Responses::at_full_strength(const std::vector<int>& set) {
   return setting;
 }
 
-Setting Responses::with_input(const std::vector<int>& set, int nuisance) const {
+Setting Responses::with_input(Setting setting, int nuisance) const {
   // Errors of one nuisance act in different conditions: one run of each condition shows them all.
-  Setting setting = at_full_strength(set);
   for (std::size_t e = 0; e < model.uncertain_inputs().size(); ++e)
     if (model.uncertain_inputs()[e].nuisance == nuisance) setting.error[static_cast<int>(e)] = input_step();
   return setting;
@@ -47,7 +46,8 @@ void Responses::prepare() {
       settings.push_back({});
       settings.back().amplitude[k] = a;
     }
-  for (int m = 0; m < static_cast<int>(model.nuisances().size()); ++m) settings.push_back(with_input({}, m));
+  for (int m = 0; m < static_cast<int>(model.nuisances().size()); ++m)
+    settings.push_back(with_input(Setting(), m));
   if (model.can_halve_step()) settings.push_back(half_step());
   model.prepare_runs(settings);
 }
@@ -57,7 +57,7 @@ void Responses::prepare(const std::vector<std::vector<int>>& sets) {
   for (const std::vector<int>& set : sets) {
     settings.push_back(at_full_strength(set));
     for (int m = 0; m < static_cast<int>(model.nuisances().size()) && !frugal; ++m)
-      settings.push_back(with_input(set, m));
+      settings.push_back(with_input(at_full_strength(set), m));
   }
   model.prepare_runs(settings);
 }
@@ -129,14 +129,27 @@ Responses::Value Responses::at(const std::vector<int>& set, const std::vector<do
   return v;
 }
 
-const Eigen::MatrixXd& Responses::inputs(const std::vector<int>& wanted_set) {
-  const std::vector<int> set = frugal ? std::vector<int>() : wanted_set;
+Eigen::MatrixXd Responses::inputs(const std::vector<int>& set, const std::vector<double>& amplitude) {
+  if (frugal || set.empty()) return inputs_at_full_strength({});
+  Eigen::MatrixXd columns = inputs_at_full_strength(set);
+  for (std::size_t i = 0; i < set.size(); ++i)
+    if (amplitude[i] != 1 && columns.size() > 0)
+      columns += (amplitude[i] - 1) * (inputs_at_full_strength({set[i]}) - inputs_at_full_strength({}));
+  return columns;
+}
+
+const Eigen::MatrixXd& Responses::inputs_at_full_strength(const std::vector<int>& set) {
   auto& columns = input_columns[set];
-  if (columns.size() > 0 || model.uncertain_inputs().empty()) return columns;
-  const Eigen::VectorXd reference = set.empty() ? base() : full(set);
-  columns.setZero(reference.size(), static_cast<Eigen::Index>(model.uncertain_inputs().size()));
+  if (columns.size() == 0) columns = inputs(at_full_strength(set));
+  return columns;
+}
+
+Eigen::MatrixXd Responses::inputs(const Setting& about) {
+  const Eigen::VectorXd reference = model.predict(about);
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(reference.size(), static_cast<Eigen::Index>(model.uncertain_inputs().size()));
   for (std::size_t k = 0; k < model.nuisances().size(); ++k) {
-    const Setting setting = with_input(set, static_cast<int>(k));
+    const Setting setting = with_input(about, static_cast<int>(k));
     const Eigen::VectorXd moved = change(model.predict(setting), reference) / input_step();
     for (const auto& [e, theta] : setting.error)
       for (Eigen::Index i = 0; i < moved.size(); ++i)

@@ -41,8 +41,16 @@ Eigen::Index Weighing::first_amplitude() {
 }
 
 LinearModel Weighing::linearise(const Hypothesis& what, const std::vector<double>& amplitude, bool joint) {
-  const Responses::Value now = responses.at(what.set, amplitude, joint);
-  const Eigen::MatrixXd& inputs = responses.inputs(joint ? what.set : std::vector<int>());
+  return linearise(what, amplitude, responses.at(what.set, amplitude, joint),
+                   joint ? responses.inputs(what.set, amplitude) : responses.inputs({}, {}));
+}
+
+LinearModel Weighing::linearise_about(const Setting& setting) {
+  return linearise({}, {}, responses.at({}, {}, false), responses.inputs(setting));
+}
+
+LinearModel Weighing::linearise(const Hypothesis& what, const std::vector<double>& amplitude,
+                                const Responses::Value& now, const Eigen::MatrixXd& inputs) {
   const Eigen::MatrixXd& numerics = responses.numerics();
   const Eigen::Index n = measured.size(), e = inputs.cols(), c = numerics.cols(),
                      k = static_cast<Eigen::Index>(what.set.size());

@@ -1,9 +1,11 @@
 #include "seedflow/fluid/prescribed_air.h"
 
 #include <deal.II/base/function_parser.h>
-#include <deal.II/lac/vector.h>
 
+#include <cctype>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace seedflow {
 
@@ -18,8 +20,51 @@ void PrescribedAirParameters::declare(Parameters& p) {
            "Time of the fastest change of the expressions; derivatives are taken over a thousandth of it.");
 }
 
+namespace {
+
+/// Whether the expression has this name: as a whole, or at the beginning of a longer one.
+bool mentions(const std::string& expression, const std::string& name, bool whole = true) {
+  const auto in_name = [&](std::size_t i) {
+    return i < expression.size() && (std::isalnum(expression[i]) || expression[i] == '_');
+  };
+  for (std::size_t i = expression.find(name); i != std::string::npos; i = expression.find(name, i + 1))
+    if ((i == 0 || !in_name(i - 1)) && !(whole && in_name(i + name.size()))) return true;
+  return false;
+}
+
+/// One component. Evaluated anew only if something has changed that its expression mentions: of the nine
+/// points that derivatives take, most then cost nothing.
+class Component {
+ public:
+  explicit Component(const std::string& text) : parser(1), random(mentions(text, "rand", false)) {
+    parser.initialize("x,y,z,t", text, {{"pi", M_PI}}, true);
+    const char* const names[] = {"x", "y", "z", "t"};
+    for (int i = 0; i < 4; ++i) depends[i] = mentions(text, names[i]);
+    last.fill(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  double operator()(const std::array<double, 4>& at) {
+    bool same = !random && known;
+    for (int i = 0; i < 4; ++i) same = same && (!depends[i] || at[i] == last[i]);
+    if (same) return value;
+    parser.set_time(at[3]);
+    value = parser.value({at[0], at[1], at[2]});
+    last = at, known = true;
+    return value;
+  }
+
+ private:
+  dealii::FunctionParser<3> parser;
+  bool random, known = false;
+  std::array<bool, 4> depends{};
+  std::array<double, 4> last;
+  double value = 0;
+};
+
+}  // namespace
+
 struct PrescribedAir::Expressions {
-  dealii::FunctionParser<3> parser{3};
+  std::vector<std::unique_ptr<Component>> component;
 };
 
 PrescribedAir::PrescribedAir(const PrescribedAirParameters& p, double density, double viscosity)
@@ -31,26 +76,23 @@ PrescribedAir::PrescribedAir(const PrescribedAirParameters& p, double density, d
   for (int d = 0; d < 3; ++d) {
     const std::string entry = std::string("Air/Prescribed/Velocity ") + "xyz"[d];
     try {
-      dealii::FunctionParser<3> one(1);
-      one.initialize("x,y,z,t", p.velocity[d], {{"pi", M_PI}}, true);
-      if (!std::isfinite(one.value({0, 0, 0}))) throw InputError("not finite at x = y = z = t = 0");
+      expressions->component.push_back(std::make_unique<Component>(p.velocity[d]));
+      if (!std::isfinite((*expressions->component[d])({0, 0, 0, 0})))
+        throw InputError("not finite at x = y = z = t = 0");
     } catch (const std::exception& error) {
       throw InputError(
           entry + ": the expression \"" + p.velocity[d] + "\" cannot be used: " + error.what() +
           "\nAllowed: numbers, x, y, z, t, pi, + - * / ^, sin, cos, exp, sqrt, if(a<b,c,d), ...");
     }
   }
-  expressions->parser.initialize("x,y,z,t", p.velocity[0] + ";" + p.velocity[1] + ";" + p.velocity[2],
-                                 {{"pi", M_PI}}, true);
 }
 PrescribedAir::~PrescribedAir() = default;
 PrescribedAir::PrescribedAir(PrescribedAir&&) noexcept = default;
 
 Vec3 PrescribedAir::velocity(const Vec3& x, double time) const {
-  expressions->parser.set_time(time);
-  dealii::Vector<double> u(3);
-  expressions->parser.vector_value({x.x, x.y, x.z}, u);
-  return {u[0], u[1], u[2]};
+  const std::array<double, 4> at = {x.x, x.y, x.z, time};
+  const auto& u = expressions->component;
+  return {(*u[0])(at), (*u[1])(at), (*u[2])(at)};
 }
 
 FlowAtPoint PrescribedAir::at(const Vec3& x, double time) const {

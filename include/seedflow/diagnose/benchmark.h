@@ -92,7 +92,7 @@ struct BenchmarkOutcome {
   bool confidence_right = false;
   int intervals = 0, covered = 0;
   int places = 0, place_right = 0;
-  int exponents = 0, exponent_right = 0;
+  int exponents = 0, exponent_right = 0, exponent_covered = 0;
   double gap_before = 0, gap_after = 0;  ///< chi2/n on held-out conditions
   double seconds = 0;
   std::string answer;  ///< verdict and names, for the list of failures
@@ -116,8 +116,9 @@ struct BenchmarkFigure {
 Interval clopper_pearson(long hits, long of, double confidence = 0.95);
 
 /// Runs all cases over the ranks of MPI_COMM_WORLD, prints the table on rank 0 and returns it. What is
-/// finished is kept in the folder (nothing: nowhere) and not repeated by the same program.
-std::vector<BenchResult> run_diagnosis_benchmark(long draws, const std::filesystem::path& kept,
-                                                 std::ostream& out);
+/// finished is kept in the folder (nothing: nowhere) and not repeated by the same program. `only`: cases
+/// whose label has these words.
+std::vector<BenchResult> run_diagnosis_benchmark(long draws, const std::string& only,
+                                                 const std::filesystem::path& kept, std::ostream& out);
 
 }  // namespace seedflow

@@ -28,8 +28,11 @@ class Responses {
   /// Values of the set at the given amplitudes. `joint`: with the runs of the whole set; otherwise the
   /// candidates' own changes are added up.
   Value at(const std::vector<int>& set, const std::vector<double>& amplitude, bool joint);
-  /// One column per uncertain input, change by one standard deviation, with the set at amplitude 1.
-  const Eigen::MatrixXd& inputs(const std::vector<int>& set);
+  /// One column per uncertain input, change by one standard deviation, with the set at the given amplitudes:
+  /// the response at amplitude 1, and what every effect of the set alone changes in it per amplitude.
+  Eigen::MatrixXd inputs(const std::vector<int>& set, const std::vector<double>& amplitude);
+  /// The same about a model with these entries and amplitudes, by runs of its own.
+  Eigen::MatrixXd inputs(const Setting& about);
   /// Numerical error by Richardson extrapolation of a halved step (second order): 4/3 (half - full), one
   /// column per condition; empty if the experiment has no step to halve.
   const Eigen::MatrixXd& numerics();
@@ -41,9 +44,10 @@ class Responses {
  private:
   const Eigen::VectorXd& full(const std::vector<int>& set);
   static Setting at_full_strength(const std::vector<int>& set);
-  Setting with_input(const std::vector<int>& set, int nuisance) const;
+  Setting with_input(Setting setting, int nuisance) const;
   /// Standard deviations by which inputs are moved: more where repetitions scatter.
   double input_step() const { return model.repeats() > 1 ? 4 : 1; }
+  const Eigen::MatrixXd& inputs_at_full_strength(const std::vector<int>& set);
   Eigen::VectorXd joint_rest(const std::vector<int>& set);
 
   ObservableModel& model;

@@ -44,6 +44,8 @@ class Weighing {
   Weighed weigh(const Hypothesis& what, const std::vector<bool>& use, bool joint, const NoiseChains& chains);
   /// The linear model of a hypothesis about given amplitudes.
   LinearModel linearise(const Hypothesis& what, const std::vector<double>& amplitude, bool joint);
+  /// Nothing missing, but inputs as they act in the model with these entries.
+  LinearModel linearise_about(const Setting& setting);
   double price(const Hypothesis& what) const;
   /// Makes the runs of several sets together.
   void prepare(const std::vector<std::vector<int>>& sets) { responses.prepare(sets); }
@@ -53,6 +55,8 @@ class Weighing {
   Eigen::Index first_amplitude();
 
  private:
+  LinearModel linearise(const Hypothesis& what, const std::vector<double>& amplitude,
+                        const Responses::Value& now, const Eigen::MatrixXd& inputs);
   ObservableModel& model;
   Responses& responses;
   const DataNoise& noise;
