@@ -69,6 +69,8 @@ std::vector<BenchResult> rotor() {
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   return {{"rotor/turning", b.turning, "of the time", ranks},
           {"rotor/step", b.seconds_per_step, "s", ranks},
+          {"rotor/rate", b.cells / b.seconds_per_step / ranks, "cell-steps/s per core", ranks},
+          {"rotor/memory", b.bytes_per_cell, "bytes per cell", ranks},
           {"rotor/cells", b.cells, "1", ranks},
           {"rotor/interface faces", b.interface_faces, "1", ranks},
           {"rotor/pressure iterations", b.pressure_iterations, "per step", ranks},

@@ -1,5 +1,7 @@
 #include "seedflow/fluid/rotor_benchmark.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -45,9 +47,17 @@ void two_slabs(int n, dealii::Triangulation<3>& mesh) {
     }
 }
 
+/// Largest resident memory of this process so far [bytes].
+double peak_memory() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * usage.ru_maxrss;
+}
+
 }  // namespace
 
 RotorBenchmark bench_rotor(int n, int steps, const std::string& backend, MPI_Comm comm) {
+  const double memory = peak_memory();
   dealii::Triangulation<3> coarse;
   two_slabs(n, coarse);
   Domain<3> domain(coarse,
@@ -94,6 +104,7 @@ RotorBenchmark bench_rotor(int n, int steps, const std::string& backend, MPI_Com
   result.preconditioners =
       double(fluid.statistics().preconditioners_built - before.preconditioners_built) / steps;
   result.cells = domain.triangulation().n_global_active_cells();
+  result.bytes_per_cell = dealii::Utilities::MPI::sum(peak_memory() - memory, comm) / result.cells;
   result.interface_faces = 2.0 * n * n;
   return result;
 }

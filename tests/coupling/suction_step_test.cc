@@ -20,12 +20,15 @@ struct SeatedSeed {
   EffectSet effects;
   double speed = 0;
   int n_spheres = 1;
+  double shake = 0, frequency = 0;  ///< of the disc along its axis: amplitude [m], [1/s]
 
   struct Result {
     Vec3 pressure, drag;        ///< mean loads of the last ms [N]
     double away = 0;            ///< distance of the seed from its hole's mouth at the end [m]
     double momentum_error = 0;  ///< relative to the impulse of the pressure
     double cover = 0;
+    double height = 0, rate = 0;  ///< of the seed along the disc's axis since the start [m], at the end [m/s]
+    double largest_lift = 0;      ///< of the seed from its place on the disc, in the second half [m]
   };
 
   Result run(double time) {
@@ -44,22 +47,37 @@ struct SeatedSeed {
                  {device.pitch_radius, 0,
                   -std::sqrt(4e-6 - seat.seat_radius * seat.seat_radius) + seat.seat_depth - lift},
                  {}, {0, speed * device.pitch_radius, 0});
+    if (shake > 0) {
+      TimeLaw& law = dem.wall(disc).motion.displacement;
+      law.kind = TimeLaw::Kind::sinusoid;
+      law.amplitude = shake, law.frequency = frequency;
+    }
     SuctionStep air(suction, device, coupling, disc, 2e-3, effects, parameters.gravity);
+    const double at_start = dem.seed_state(0).centre.z;
+    Result result;
     const Vec3 before = dem.momentum();
     Vec3 from_air;
     double scale = 0;
-    const int n = static_cast<int>(std::lround(time / 1e-3));
+    const double interval = shake > 0 ? 0.1e-3 : 1e-3;
+    const int n = static_cast<int>(std::lround(time / interval));
     for (int i = 0; i < n; ++i) {
-      from_air += air.advance(dem, 1e-3);
-      scale += 1e-3 * norm(air.seed_loads()[0].pressure);
+      from_air += air.advance(dem, interval);
+      scale += interval * norm(air.seed_loads()[0].pressure);
+      const double moved = dem.walls()[disc].motion.displacement.at(dem.time()).value;
+      result.height = dem.seed_state(0).centre.z - at_start;
+      if (2 * i > n) result.largest_lift = std::max(result.largest_lift, moved - result.height);
     }
+    result.rate = dem.seed_state(0).velocity.z;
     double weight = 0;
     for (const double m : dem.masses()) weight += m * 9.81;
     const Vec3 error =
         dem.momentum() - before - from_air - dem.wall_impulses()[disc] - Vec3{0, -weight * time, 0};
     const Vec3 mouth = device.hole_centre(0, speed * time);
-    return {air.seed_loads()[0].pressure, air.seed_loads()[0].drag, norm(dem.seed_state(0).centre - mouth),
-            norm(error) / std::max(scale, 1e-12), air.holes()[0].cover};
+    result.pressure = air.seed_loads()[0].pressure, result.drag = air.seed_loads()[0].drag;
+    result.away = norm(dem.seed_state(0).centre - mouth);
+    result.momentum_error = norm(error) / std::max(scale, 1e-12);
+    result.cover = air.holes()[0].cover;
+    return result;
   }
 };
 
@@ -118,6 +136,35 @@ TEST(SuctionStep, SeedIsCarriedAround) {
   const auto r = seated.run(0.1);
   EXPECT_LT(r.away, 2e-3);
   EXPECT_GT(r.cover, 0.98);
+}
+
+// The disc shakes along its axis, z = A sin(2 pi f t). A seed that is held does what the disc does: at 50 Hz
+// its contact, whose own frequency is kilohertz, gives way by (50 Hz/kHz)^2.
+TEST(SuctionStep, SeedFollowsAShakingDisc) {
+  SeatedSeed seated;
+  seated.shake = 0.1e-3, seated.frequency = 50;
+  const double top_speed = 2 * M_PI * 50 * 0.1e-3;
+  const auto middle = seated.run(0.04), top = seated.run(0.045), back = seated.run(0.05);
+  EXPECT_NEAR(middle.rate / top_speed, 1, 0.03);
+  // The suction presses it some micrometres into the soft disc, at the start of the run.
+  EXPECT_NEAR((top.height - middle.height) / 0.1e-3, 1, 0.03);
+  EXPECT_NEAR(top.rate / top_speed, 0, 0.03);
+  EXPECT_NEAR(back.rate / top_speed, -1, 0.03);
+  EXPECT_GT(back.cover, 0.98);
+  EXPECT_LT(back.momentum_error, 1e-9);
+}
+
+// It comes off where A (2 pi f)^2 exceeds holding force over mass, 350 m/s2.
+TEST(SuctionStep, SeedLeavesADiscThatShakesTooHard) {
+  SeatedSeed seated;
+  const double limit = 0.0157 / (1340 * M_PI / 6 * 64e-9);
+  const auto lift = [&](double share) {
+    seated.shake = 0.05e-3;
+    seated.frequency = std::sqrt(share * limit / seated.shake) / (2 * M_PI);
+    return seated.run(0.03).largest_lift;
+  };
+  EXPECT_LT(lift(0.6), 2e-6);
+  EXPECT_GT(lift(1.6), 10e-6);
 }
 
 // Where the vacuum ends the force ends.

@@ -200,6 +200,36 @@ TEST_F(MeteringRuns, LeakAndLineTakeVacuumAway) {
   EXPECT_GT(leak.observable("air_flow"), 2 * tight.observable("air_flow"));
 }
 
+// The disc's points go around with the disc and to and fro along its axis, from the start of the run on.
+TEST(Metering, ShakingDiscMovesAsItsEffectSays) {
+  Metering metering;
+  metering.speed = 6;
+  metering.suction.vibration_strength = 0.5;
+  metering.suction.vibration_amplitude = 0.2e-3;
+  metering.suction.vibration_frequency = 40;
+  Metering::Gathered gathered(metering, metering.effects);
+  const GranularScene scene = metering.scene(gathered, {});
+  Dem dem(metering.granular.dem);
+  const int material = dem.add_material(Material());
+  for (Wall wall : metering.walls()) {
+    wall.material = material;
+    dem.add_wall(wall);
+  }
+  const double start = 0.3;
+  scene.begin(dem, start);
+  const WallMotion& motion = dem.walls()[Metering::disc_wall].motion;
+  EXPECT_EQ(placement(motion, start - 1e-3).velocity_at({0.09, 0, 0}).z, 0);
+  for (const double t : {0.0, 0.004, 0.011}) {
+    const Placement place = placement(motion, start + t);
+    const Vec3 at = place.to_lab({0.09, 0, 0}), velocity = place.velocity_at(at);
+    const double phase = 2 * M_PI * 40 * t;
+    EXPECT_NEAR(at.z, 0.1e-3 * std::sin(phase), 1e-12);
+    EXPECT_NEAR(velocity.z, 0.1e-3 * 2 * M_PI * 40 * std::cos(phase), 1e-9);
+    EXPECT_NEAR(velocity.x, -6 * 0.09 * std::sin(6 * t), 1e-9);
+    EXPECT_NEAR(velocity.y, 6 * 0.09 * std::cos(6 * t), 1e-9);
+  }
+}
+
 TEST_F(MeteringRuns, MapRunsEveryPointOnce) {
   const std::vector<std::string> set = {"Experiment=metering map", "Study/Vacuums=-1 kPa, -3 kPa",
                                         "Study/Speeds=60 rpm, 120 rpm", "Study/Hole diameters=2 mm",

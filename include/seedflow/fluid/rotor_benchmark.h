@@ -14,6 +14,7 @@ struct RotorBenchmark {
   double pressure_iterations = 0, momentum_iterations = 0;  ///< mean per step
   double preconditioners = 0;                               ///< multigrid hierarchies built per step
   double mass_residual = 0;                                 ///< largest over the steps
+  double bytes_per_cell = 0;  ///< growth of peak resident memory, mesh and solvers included
 };
 
 /// A slab of 4 x 4 x 1.5 turns under another, each of n x n x (3 n / 8) cells, with air blown through both;
