@@ -47,6 +47,7 @@ std::vector<WallCandidate> candidates_of(const Contacts::Surroundings& now, doub
         if (!now.walls[w].active ||
             !may_touch(now.walls[w], now.placements[w], ball.centre, ball.radius + skin))
           continue;
+        now.cloud.take(now.stores, seed);
         for (int i = 0; i < n_spheres; ++i)
           if (may_touch(now.walls[w], now.placements[w], now.cloud.position(begin + i),
                         now.stores[t].model.radius[i] + skin))

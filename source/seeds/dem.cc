@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include "seedflow/base/error.h"
 
 namespace seedflow {
 namespace {
@@ -32,6 +35,8 @@ void Dem::advance(double duration) {
   move(Stage::first, {0.5 * step, step, true, parameters.gravity}, step);
   for (long k = 1; k <= n; ++k) {
     if (k % substeps_between_checks == 0) {
+      ghosts.complete(contacts.bodies());
+      learn_speed(step);
       complete(now + k * step, false);
       check_state(now + k * step);
       // Impulses of outside loads are booked where a seed stands; steps under such loads are short.
@@ -46,6 +51,7 @@ void Dem::advance(double duration) {
       move(Stage::last, {0.5 * step, 0, true, parameters.gravity}, step);
     ++substeps;
   }
+  ghosts.complete(contacts.bodies());
   end_impulses(duration);
   now += duration;
   complete(now, true);
@@ -79,21 +85,52 @@ void Dem::evaluate_forces() {
 }
 
 void Dem::contact_forces(double time, double step) {
-  if (!contacts.is_listed() || travel.exceeds(store, share, largest_speed, wall_speed(time), step) ||
-      skin.is_stale(static_cast<double>(substeps - searched_at)))
+  ghosts.finish(contacts.bodies());
+  if (lists_are_outdated(time, step)) {
+    learn_speed(step);
     make_lists(time);
-  else
-    ghosts.bring(share, contacts.bodies());
+  }
   contacts.add_forces(all_walls, placements(time), step);
+}
+
+bool Dem::lists_are_outdated(double time, double step) {
+  if (!contacts.is_listed()) return true;
+  travel.add_of_walls(wall_speed(time) * step);
+  if (travel.may_exceed()) learn_speed(step);
+  return travel.exceeds(store, share) || skin.is_stale(static_cast<double>(substeps - searched_at));
+}
+
+void Dem::learn_speed(double step) {
+  if (!speed.is_pending()) return;
+  largest_speed = speed.finish();
+  travel.add(largest_speed * step);
 }
 
 void Dem::move(Stage stage, const MotionStep& motion, double bond_step) {
   fastest = FastestSpeeds{};
-  for (std::size_t t = 0; t < store.size(); ++t) {
-    scratch.assign(store[t].rigid ? 0 : store[t].n_spheres(), ForceLanes{});
-    for (int b = share.begin(t); b < share.end(t); ++b) move_block(stage, motion, bond_step, t, b);
+  int largest = 0;
+  for (const SeedStore& s : store)
+    if (!s.rigid) largest = std::max(largest, s.n_spheres());
+  scratch.assign(largest, ForceLanes{});
+  // What other ranks wait for goes first and travels while the rest is moved.
+  for (std::size_t k = 0; k < n_awaited; ++k) move_block(stage, motion, bond_step, k);
+  if (motion.drift > 0 && contacts.is_listed()) ghosts.start(share, contacts.bodies());
+  for (std::size_t k = n_awaited; k < own_blocks.size(); ++k) move_block(stage, motion, bond_step, k);
+
+  if (speed.is_pending()) {
+    learn_speed(bond_step);
+    if (travel.exceeded(store, share)) {
+      ghosts.complete(contacts.bodies());
+      std::ostringstream text;
+      text << "Seeds were thrown apart: at t = " << now << " s or soon after the fastest sub-sphere came to "
+           << largest_speed
+           << " m/s within one substep, so that a contact between seeds of two ranks may have been missed. "
+              "Reduce the time step, or make the skin of the contact lists thicker.";
+      throw RunError(text.str());
+    }
   }
-  largest_speed = share.maximum(fastest.bound());
+  if (motion.drift > 0) speed.start(share, fastest.bound());
+  if (stage == Stage::first || share.n_ranks() == 1) learn_speed(bond_step);
   const int n_walls = static_cast<int>(all_walls.size());
   if (stage == Stage::first)
     for (int w = 0; w < n_walls; ++w) wall_impulse[w] += motion.kick * wall_force[w];
@@ -101,7 +138,8 @@ void Dem::move(Stage stage, const MotionStep& motion, double bond_step) {
     contacts.add_wall_forces(motion.kick, n_walls, block_impulse);
 }
 
-void Dem::move_block(Stage stage, const MotionStep& motion, double bond_step, int t, int b) {
+void Dem::move_block(Stage stage, const MotionStep& motion, double bond_step, std::size_t k) {
+  const int t = own_blocks[k].store, b = own_blocks[k].block;
   SeedStore& s = store[t];
   const int block = first_block[t] + b;
   if (s.rigid) {
@@ -116,7 +154,8 @@ void Dem::move_block(Stage stage, const MotionStep& motion, double bond_step, in
       contacts.take_forces(block, forces);
       // Bonds and motion of a block follow each other while the block is in the cache.
       NextBlock next;
-      if (b + 1 < share.end(t)) next.spheres = s.block(b + 1);
+      if (k + 1 < own_blocks.size() && own_blocks[k + 1].store == t)
+        next.spheres = s.block(own_blocks[k + 1].block);
       bonds[t].add_forces(s.block(b), forces, b, bond_step, next);
     }
     move_bonded(s, b, forces, motion, fastest);

@@ -24,17 +24,16 @@ void Dem::make_lists(double time) {
   complete_positions();
   SeedCloud cloud(store);
   std::vector<char> own(numbering.n_seeds(), 0);
+  for (std::size_t t = 0; t < store.size(); ++t) {
+    const int n = static_cast<int>(store[t].seed.size());
+    std::fill(own.begin() + numbering.first_seed[t] + std::min(n, share.begin(t) * lane_width),
+              own.begin() + numbering.first_seed[t] + std::min(n, share.end(t) * lane_width), 1);
+  }
   lowest = {1e300, 1e300, 1e300}, highest = {-1e300, -1e300, -1e300};
-  for (std::size_t t = 0; t < store.size(); ++t)
-    for (int slot = 0; slot < static_cast<int>(store[t].seed.size()); ++slot) {
-      cloud.take(store[t], static_cast<int>(t), slot);
-      const int seed = numbering.first_seed[t] + slot, b = slot / lane_width;
-      own[seed] = b >= share.begin(t) && b < share.end(t);
-      const Ball& ball = cloud.ball[seed];
-      for (int c = 0; c < 3; ++c) {
-        lowest[c] = std::min(lowest[c], ball.centre[c] - ball.radius);
-        highest[c] = std::max(highest[c], ball.centre[c] + ball.radius);
-      }
+  for (const Ball& ball : cloud.ball)
+    for (int c = 0; c < 3; ++c) {
+      lowest[c] = std::min(lowest[c], ball.centre[c] - ball.radius);
+      highest[c] = std::max(highest[c], ball.centre[c] + ball.radius);
     }
   ContactHistory known;
   if (contacts.is_listed()) {
@@ -63,8 +62,24 @@ void Dem::make_lists(double time) {
   for (std::size_t t = 0; t < store.size(); ++t)
     for (int b = share.begin(t); b < share.end(t); ++b) contacts.place(first_block[t] + b, store[t], b);
   ghosts.set(share, numbering, store, contacts.bodies(), contacts.pair_list());
-  ghosts.bring(share, contacts.bodies());
+  order_blocks();
+  ghosts.start(share, contacts.bodies());
+  ghosts.finish(contacts.bodies());
   travel.begin(store, share, contacts.skin());
+}
+
+void Dem::order_blocks() {
+  std::vector<char> sent(contacts.is_listed() ? contacts.bodies().sphere.size() : 0, 0);
+  if (contacts.is_listed()) ghosts.mark_sent(sent);
+  own_blocks.clear();
+  for (int t = 0; t < static_cast<int>(store.size()); ++t)
+    for (int b = share.begin(t); b < share.end(t); ++b) own_blocks.push_back({t, b});
+  const auto is_awaited = [&](const OwnBlock& own) {
+    const int block = first_block[own.store] + own.block;
+    return !sent.empty() && std::any_of(sent.begin() + contacts.entries(block),
+                                        sent.begin() + contacts.entries(block + 1), [](char c) { return c; });
+  };
+  n_awaited = std::stable_partition(own_blocks.begin(), own_blocks.end(), is_awaited) - own_blocks.begin();
 }
 
 std::vector<int> Dem::sphere_numbers() const {

@@ -25,6 +25,7 @@ void Dem::number() {
   first_block.assign(1, 0);
   for (const SeedStore& s : store) first_block.push_back(first_block.back() + s.n_blocks());
   block_impulse.assign(first_block.back() * all_walls.size(), Vec3{});
+  order_blocks();
 }
 
 bool Dem::arrangement_is_due() const {
@@ -98,10 +99,12 @@ void Dem::complete_positions() {
       share.gather(t, s.body, 1);
       continue;
     }
+    const std::size_t n = s.n_spheres(), begin = share.begin(t) * n, end = share.end(t) * n;
     std::vector<LaneVec3> x(s.sphere.size());
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] = s.sphere[k].position;
-    share.gather(t, x, s.n_spheres());
-    for (std::size_t k = 0; k < x.size(); ++k) s.sphere[k].position = x[k];
+    for (std::size_t k = begin; k < end; ++k) x[k] = s.sphere[k].position;
+    share.gather(t, x, n);
+    for (std::size_t k = 0; k < begin; ++k) s.sphere[k].position = x[k];
+    for (std::size_t k = end; k < x.size(); ++k) s.sphere[k].position = x[k];
   }
 }
 
@@ -170,27 +173,38 @@ void Dem::check_walls(double time) const {
 }
 
 void Dem::check_state(double time) const {
-  for (int seed = 0; seed < n_seeds(); ++seed) {
-    const SeedStore& s = store[slots[seed].store];
-    Vec3 centre, velocity;
-    s.positions(slots[seed].slot,
-                [&](int i, const Vec3& x) { centre += (s.model.sphere_mass[i] / s.model.mass) * x; });
-    s.velocities(slots[seed].slot, [&](int i, const Vec3& v, const Vec3&) {
-      velocity += (s.model.sphere_mass[i] / s.model.mass) * v;
-    });
-    check_seed(seed, centre, velocity, time);
+  const auto is_inside = [&](const Vec3& x) {
+    return !bounded ||
+           (x.x >= low.x && x.y >= low.y && x.z >= low.z && x.x <= high.x && x.y <= high.y && x.z <= high.z);
+  };
+  const auto is_number = [](const Vec3& x, const Vec3& v) {
+    return std::isfinite(x.x + x.y + x.z + v.x + v.y + v.z);
+  };
+  std::vector<int> faulty;  // every rank looks at its own seeds
+  for (const OwnBlock& own : own_blocks) {
+    const SeedStore& s = store[own.store];
+    LaneVec3 centre, velocity;
+    if (s.rigid) centre = s.body[own.block].position, velocity = s.body[own.block].velocity;
+    for (int i = 0; !s.rigid && i < s.n_spheres(); ++i) {
+      const double weight = s.model.sphere_mass[i] / s.model.mass;
+      centre += weight * s.block(own.block)[i].position;
+      velocity += weight * s.block(own.block)[i].velocity;
+    }
+    const int begin = own.block * lane_width, end = static_cast<int>(s.seed.size());
+    for (int slot = begin; slot < std::min(begin + lane_width, end); ++slot) {
+      const Vec3 x = centre.get(slot - begin);
+      if (!is_number(x, velocity.get(slot - begin)) || !is_inside(x)) faulty.push_back(s.seed[slot]);
+    }
   }
-}
-
-void Dem::check_seed(int seed, const Vec3& x, const Vec3& v, double time) const {
-  const bool number = std::isfinite(x.x + x.y + x.z + v.x + v.y + v.z);
-  const bool inside = !bounded || (x.x >= low.x && x.y >= low.y && x.z >= low.z && x.x <= high.x &&
-                                   x.y <= high.y && x.z <= high.z);
-  if (number && inside) return;
+  share.concatenate(faulty);
+  if (faulty.empty()) return;
+  const int seed = *std::min_element(faulty.begin(), faulty.end());
+  const SeedState state = seed_state(seed);
+  const Vec3& x = state.centre;
   std::ostringstream where;
   where << "seed " << seed << " ('" << seed_template(seed).name << "') at (" << x.x << ", " << x.y << ", "
         << x.z << ") m, t = " << time << " s";
-  if (!number)
+  if (!is_number(x, state.velocity))
     throw RunError("The motion of the seeds failed: not a number in " + where.str() +
                    ". Reduce the time step or look at the forces on this seed.");
   throw RunError("A seed left the domain: " + where.str() +

@@ -154,13 +154,8 @@ std::vector<TimeStepLimit> Dem::time_step_limits() const {
 }
 
 void Dem::check_overlaps() const {
-  const SeedCloud cloud = [&] {
-    SeedCloud c(store);
-    for (std::size_t t = 0; t < store.size(); ++t)
-      for (std::size_t slot = 0; slot < store[t].seed.size(); ++slot)
-        c.take(store[t], static_cast<int>(t), static_cast<int>(slot));
-    return c;
-  }();
+  SeedCloud cloud(store);
+  for (int k = 0; k < n_seeds(); ++k) cloud.take(store, k);
   double overlap = 0;
   int seed = -1, other = -1, wall = -1;
   std::vector<int> users_number(n_spheres());

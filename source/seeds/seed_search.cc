@@ -199,43 +199,63 @@ class PairFinder {
   std::vector<int> count;    ///< of its sub-spheres before this one
 };
 
+// Balls around the bonded seeds of a block.
+void enclose(const SeedStore& s, int b, LaneVec3& centre, Lanes& radius) {
+  const SphereLanes* const sphere = s.block(b);
+  LaneVec3 low = sphere[0].position, high = low;
+  for (int i = 1; i < s.n_spheres(); ++i) {
+    const LaneVec3& p = sphere[i].position;
+    low.x = lane_min(low.x, p.x), low.y = lane_min(low.y, p.y), low.z = lane_min(low.z, p.z);
+    high.x = lane_max(high.x, p.x), high.y = lane_max(high.y, p.y), high.z = lane_max(high.z, p.z);
+  }
+  centre = 0.5 * (low + high);
+  Lanes square = {};
+  for (int i = 0; i < s.n_spheres(); ++i) {
+    const LaneVec3 d = sphere[i].position - centre;
+    square = lane_max(square, dot(d, d));
+  }
+  radius = lane_sqrt(square) + *std::max_element(s.model.radius.begin(), s.model.radius.end());
+}
+
 }  // namespace
 
 SeedCloud::SeedCloud(const std::vector<SeedStore>& stores) : numbering(stores) {
   for (auto* a : {&x, &y, &z}) a->resize(numbering.n_spheres() + lane_width, 0.0);
-  ball.resize(numbering.n_seeds());
+  ball.resize(numbering.n_seeds()), taken.resize(numbering.n_seeds(), 0);
+  for (std::size_t t = 0; t < stores.size(); ++t) {
+    const SeedStore& s = stores[t];
+    const int n_slots = static_cast<int>(s.seed.size());
+    for (int b = 0; b < s.n_blocks(); ++b) {
+      LaneVec3 centre;
+      Lanes radius;
+      if (s.rigid)
+        centre = s.body[b].position, radius = broadcast(s.model.bounding_radius);
+      else
+        enclose(s, b, centre, radius);
+      for (int slot = b * lane_width; slot < std::min((b + 1) * lane_width, n_slots); ++slot)
+        ball[numbering.first_seed[t] + slot] = {centre.get(slot - b * lane_width),
+                                                radius[slot - b * lane_width]};
+    }
+  }
 }
 
-void SeedCloud::take(const SeedStore& s, int t, int slot) {
-  const int n = s.n_spheres(), begin = first_sphere(s, t, slot);
-  s.positions(slot,
-              [&](int i, const Vec3& a) { x[begin + i] = a.x, y[begin + i] = a.y, z[begin + i] = a.z; });
-  Ball& b = ball[numbering.first_seed[t] + slot];
-  if (s.rigid) {
-    b = {s.body[slot / lane_width].position.get(slot % lane_width), s.model.bounding_radius};
-    return;
-  }
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (int i = begin; i < begin + n; ++i) {
-    low.x = std::min(low.x, x[i]), low.y = std::min(low.y, y[i]), low.z = std::min(low.z, z[i]);
-    high.x = std::max(high.x, x[i]), high.y = std::max(high.y, y[i]), high.z = std::max(high.z, z[i]);
-  }
-  b.centre = 0.5 * (low + high);
-  double square = 0, largest = 0;
-  for (int i = 0; i < n; ++i) {
-    square = std::max(square, norm_square(position(begin + i) - b.centre));
-    largest = std::max(largest, s.model.radius[i]);
-  }
-  b.radius = std::sqrt(square) + largest;
+void SeedCloud::take(const std::vector<SeedStore>& stores, int seed) {
+  if (taken[seed]) return;
+  taken[seed] = 1;
+  const int t = numbering.store_of_seed(seed), slot = seed - numbering.first_seed[t];
+  const int begin = first_sphere(stores[t], t, slot);
+  stores[t].positions(
+      slot, [&](int i, const Vec3& a) { x[begin + i] = a.x, y[begin + i] = a.y, z[begin + i] = a.z; });
 }
 
-FoundPairs pairs_within(const std::vector<SeedStore>& stores, const SeedCloud& cloud, double gap,
-                        double inner_gap, const std::vector<char>& own) {
+FoundPairs pairs_within(const std::vector<SeedStore>& stores, SeedCloud& cloud, double gap, double inner_gap,
+                        const std::vector<char>& own) {
   FoundPairs all;
   const int n = static_cast<int>(cloud.ball.size());
   all.begin.resize(n + 1, 0);
   if (n == 0) return all;
   const std::vector<SeedPair> seeds = seeds_within(cloud.ball, gap, own);
+  for (const SeedPair& p : seeds) cloud.take(stores, p.first), cloud.take(stores, p.second);
   PairFinder finder(stores, cloud, gap, inner_gap);
   auto pair = seeds.begin();
   for (int a = 0; a < n; ++a) {

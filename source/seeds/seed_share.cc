@@ -4,6 +4,14 @@
 #include <tuple>
 
 namespace seedflow {
+namespace {
+
+void wait(std::vector<MPI_Request>& requests) {
+  if (!requests.empty()) MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  requests.clear();
+}
+
+}  // namespace
 
 SeedShare::SeedShare(MPI_Comm communicator) : comm(communicator) {
   // Programs and tests that never start MPI compute alone.
@@ -66,11 +74,6 @@ std::vector<char> SeedShare::concatenated(const char* data, std::size_t size) co
   return all;
 }
 
-double SeedShare::maximum(double a) const {
-  if (ranks > 1) MPI_Allreduce(MPI_IN_PLACE, &a, 1, MPI_DOUBLE, MPI_MAX, comm);
-  return a;
-}
-
 void SeedShare::add_up(std::vector<Vec3>& values) const {
   if (ranks > 1)
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(3 * values.size()), MPI_DOUBLE, MPI_SUM,
@@ -85,6 +88,7 @@ void SeedShare::add_up(ListSizes& sizes) const {
 void GhostExchange::set(const SeedShare& share, const Numbering& numbering,
                         const std::vector<SeedStore>& stores, const ContactBodies& bodies,
                         const PairList& pairs) {
+  for (auto& requests : sending) wait(requests);
   neighbours.clear();
   if (share.n_ranks() == 1) return;
   const auto owner = [&](int entry) {
@@ -114,35 +118,44 @@ void GhostExchange::set(const SeedShare& share, const Numbering& numbering,
   for (int r = 0; r < share.n_ranks(); ++r) {
     if (send[r].empty()) continue;
     unique(send[r]), unique(receive[r]);
-    Neighbour n{r, send[r], receive[r], bodies_of(send[r]), bodies_of(receive[r]), {}, {}};
+    Neighbour n{r, send[r], receive[r], bodies_of(send[r]), bodies_of(receive[r]), {{}, {}}, {}};
     const std::size_t lines = bodies.levers() ? 3 : 2;
-    n.out.resize(n.send.size() + lines * n.send_bodies.size());
+    for (auto& out : n.out) out.resize(n.send.size() + lines * n.send_bodies.size());
     n.in.resize(n.receive.size() + lines * n.receive_bodies.size());
     neighbours.push_back(std::move(n));
   }
 }
 
-void GhostExchange::bring(const SeedShare& share, ContactBodies& bodies) {
-  if (neighbours.empty()) return;
-  requests.clear();
+void GhostExchange::mark_sent(std::vector<char>& entry) const {
+  for (const Neighbour& n : neighbours)
+    for (int e : n.send) entry[e] = 1;
+}
+
+void GhostExchange::start(const SeedShare& share, const ContactBodies& bodies) {
   const auto bytes = [](const std::vector<HalfLine>& a) {
     return static_cast<int>(a.size() * sizeof(HalfLine));
   };
   static_assert(sizeof(ContactMotion) == 2 * sizeof(HalfLine));
+  turn = 1 - turn;
+  wait(sending[turn]);
   for (Neighbour& n : neighbours)
-    MPI_Irecv(n.in.data(), bytes(n.in), MPI_BYTE, n.rank, 0, share.communicator(), &requests.emplace_back());
+    MPI_Irecv(n.in.data(), bytes(n.in), MPI_BYTE, n.rank, 0, share.communicator(), &receiving.emplace_back());
   for (Neighbour& n : neighbours) {
-    HalfLine* to = n.out.data();
+    HalfLine* to = n.out[turn].data();
     for (int e : n.send) *to++ = bodies.state[e];
     for (int b : n.send_bodies) {
       std::copy_n(bodies.motion[b].value, 4, (to++)->value);
       std::copy_n(bodies.motion[b].value + 4, 4, (to++)->value);
       if (bodies.levers()) *to++ = bodies.centre[b];
     }
-    MPI_Isend(n.out.data(), bytes(n.out), MPI_BYTE, n.rank, 0, share.communicator(),
-              &requests.emplace_back());
+    MPI_Isend(n.out[turn].data(), bytes(n.out[turn]), MPI_BYTE, n.rank, 0, share.communicator(),
+              &sending[turn].emplace_back());
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+void GhostExchange::finish(ContactBodies& bodies) {
+  if (receiving.empty()) return;
+  wait(receiving);
   for (const Neighbour& n : neighbours) {
     const HalfLine* from = n.in.data();
     for (int e : n.receive) bodies.state[e] = *from++;
@@ -152,6 +165,11 @@ void GhostExchange::bring(const SeedShare& share, ContactBodies& bodies) {
       if (bodies.levers()) bodies.centre[b] = *from++;
     }
   }
+}
+
+void GhostExchange::complete(ContactBodies& bodies) {
+  finish(bodies);
+  for (auto& requests : sending) wait(requests);
 }
 
 }  // namespace seedflow

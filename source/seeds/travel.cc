@@ -64,12 +64,6 @@ std::vector<double> Travel::two_longest(const std::vector<SeedStore>& stores, co
   return longest;
 }
 
-bool Travel::exceeds(const std::vector<SeedStore>& stores, const SeedShare& share, double speed,
-                     double wall_speed, double step) {
-  of_pair += 2 * speed * step, of_seed += speed * step, of_walls += wall_speed * step;
-  return bound() >= reach && way(stores, share) > 0.75 * reach;
-}
-
 double Travel::way(const std::vector<SeedStore>& stores, const SeedShare& share) {
   const std::vector<double> longest = two_longest(stores, share);
   of_pair = longest[0] + longest[1], of_seed = longest[0];

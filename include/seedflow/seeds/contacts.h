@@ -39,7 +39,7 @@ class Contacts {
   /// What belongs to one search.
   struct Surroundings {
     const std::vector<SeedStore>& stores;
-    const SeedCloud& cloud;
+    SeedCloud& cloud;
     const std::vector<char>& own;         ///< [seed, see Numbering]
     const std::vector<int>& first_block;  ///< [store] blocks numbered through
     const std::vector<Wall>& walls;

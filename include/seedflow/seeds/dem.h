@@ -10,6 +10,7 @@
 #include "seedflow/seeds/bonds.h"
 #include "seedflow/seeds/contact_network.h"
 #include "seedflow/seeds/contacts.h"
+#include "seedflow/seeds/late_maximum.h"
 #include "seedflow/seeds/material.h"
 #include "seedflow/seeds/motion.h"
 #include "seedflow/seeds/seed_share.h"
@@ -171,6 +172,9 @@ class Dem {
   struct Slot {
     int store, slot;
   };
+  struct OwnBlock {
+    int store, block;
+  };
   enum class Stage { first, middle, last };  ///< of the substeps of advance()
 
   template <class F>
@@ -180,8 +184,10 @@ class Dem {
   // dem.cc
   void evaluate_forces();
   void contact_forces(double time, double step);
+  bool lists_are_outdated(double time, double step);
   void move(Stage stage, const MotionStep& motion, double bond_step);
-  void move_block(Stage stage, const MotionStep& motion, double bond_step, int t, int b);
+  void move_block(Stage stage, const MotionStep& motion, double bond_step, std::size_t k);
+  void learn_speed(double step);
   // dem_loads.cc
   void relax_factors(double step);
   void begin_impulses(double step);
@@ -191,6 +197,7 @@ class Dem {
   std::vector<Placement> placements(double time) const;
   double wall_speed(double time) const;
   std::vector<int> sphere_numbers() const;
+  void order_blocks();
   ContactHistory history() const;
   void park();
   // dem_order.cc: order in memory, ranks
@@ -203,7 +210,6 @@ class Dem {
   void complete_positions();
   void check_walls(double time) const;
   void check_state(double time) const;
-  void check_seed(int seed, const Vec3& centre, const Vec3& velocity, double time) const;
   std::string place_of(int seed) const;
 
   DemParameters parameters;
@@ -229,13 +235,16 @@ class Dem {
   SeedShare share;
   GhostExchange ghosts;
   Numbering numbering;
-  std::vector<int> first_block;  ///< [store] blocks numbered through
+  std::vector<int> first_block;      ///< [store] blocks numbered through
+  std::vector<OwnBlock> own_blocks;  ///< in the order in which they are moved
+  std::size_t n_awaited = 0;         ///< of these, which come first: other ranks wait for them
   Vec3 low, high;
   Vec3 lowest, highest;  ///< box around all seeds when the lists were made
   bool bounded = false, forces_known = false, divided = false;
   double now = 0;
   double load_step = 0;      ///< substep the relaxation factors were computed for [s]
-  double largest_speed = 0;  ///< of any sub-sphere at the last kick, all ranks [m/s]
+  double largest_speed = 0;  ///< of any sub-sphere at the last kick that is known of all ranks [m/s]
+  LateMaximum speed;         ///< of any sub-sphere at the last kick [m/s]
   FastestSpeeds fastest;     ///< of this rank's seeds
   long substeps = 0, searches = 0;
   long searched_at = 0;   ///< substep of the last search

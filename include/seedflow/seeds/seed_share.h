@@ -51,7 +51,6 @@ class SeedShare {
     data.resize(bytes.size() / sizeof(T));
     std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(data.data()));
   }
-  double maximum(double a) const;
   /// Adds up; exact where all but one rank hold zero.
   void add_up(std::vector<Vec3>& values) const;
   void add_up(ListSizes& sizes) const;
@@ -67,22 +66,31 @@ class SeedShare {
 };
 
 /// Brings the state of other ranks' sub-spheres that stand in pairs with own ones, and of their bodies.
+/// Messages travel between start() and finish(), while the ranks compute.
 class GhostExchange {
  public:
   /// From the lists; both sides of a pair find it, so both know what to send and to expect.
   void set(const SeedShare& share, const Numbering& numbering, const std::vector<SeedStore>& stores,
            const ContactBodies& bodies, const PairList& pairs);
-  void bring(const SeedShare& share, ContactBodies& bodies);
+  /// Marks the entries that other ranks wait for.
+  void mark_sent(std::vector<char>& entry) const;
+  /// Sends them as they are now.
+  void start(const SeedShare& share, const ContactBodies& bodies);
+  /// Takes what other ranks have sent, if a start() went before.
+  void finish(ContactBodies& bodies);
+  /// As finish(), and own messages have arrived, too.
+  void complete(ContactBodies& bodies);
 
  private:
   struct Neighbour {
     int rank;
     std::vector<int> send, receive;                ///< entries
     std::vector<int> send_bodies, receive_bodies;  ///< of these entries
-    std::vector<HalfLine> out, in;
+    std::vector<HalfLine> out[2], in;
   };
   std::vector<Neighbour> neighbours;
-  std::vector<MPI_Request> requests;
+  std::vector<MPI_Request> receiving, sending[2];
+  int turn = 0;  ///< of the two buffers sent from: slower ranks may still read the other
 };
 
 }  // namespace seedflow
