@@ -20,7 +20,7 @@ void Contacts::take_forces(int block, ForceLanes* forces) {
 void Contacts::take_forces(int block, ForceLanes& on_seeds) {
   const int begin = first_entry[block], end = first_entry[block + 1];
   if (begin == end) return;
-  const CacheLine zero;
+  const CacheLine zero{};
   const CacheLine* row[lane_width];
   for (const CacheLine*& r : row) r = &zero;
   for (int e = begin; e < end; ++e) row[places[e].lane] = &all_bodies.sum[all_bodies.body[e]];

@@ -50,6 +50,8 @@ void Dem::arrange() {
     store[t].rearrange(from);
     bonds[t].rearrange(from);
   }
+  const auto fit = [](auto&... list) { (list.shrink_to_fit(), ...); };
+  fit(slots, first, sphere_radius, sphere_mass, labels, groups);
   load_step = 0;
   arranged_at = substeps;
   arranged_seeds = n_seeds();

@@ -27,10 +27,11 @@ void contacts_near(const Wall& wall, const Placement& place, const Vec3& x, doub
                    std::vector<WallPoint>& out) {
   if (!wall.active) return;
   const std::size_t first = out.size();
-  const Vec3 own = place.to_wall(x);
+  const bool turned = norm_square(place.turn.v) > 0;  // most walls are not
+  const Vec3 own = turned ? place.to_wall(x) : place.pivot + (x - place.shift - place.pivot);
   std::visit([&](const auto& s) { s.points_near(own, reach, out); }, wall.surface);
   for (std::size_t i = first; i < out.size(); ++i) {
-    out[i].normal = rotate(place.turn, out[i].normal);
+    if (turned) out[i].normal = rotate(place.turn, out[i].normal);
     out[i].velocity = place.velocity_at(x - out[i].distance * out[i].normal);
   }
 }

@@ -8,9 +8,9 @@
 
 namespace seedflow {
 
-/// A record of eight doubles: one cache line.
+/// A record of eight doubles: one cache line. Not set to zero unless made by CacheLine{}.
 struct alignas(64) CacheLine {
-  double value[8] = {};
+  double value[8];
 
   double& operator[](int i) { return value[i]; }
   double operator[](int i) const { return value[i]; }
@@ -27,8 +27,9 @@ struct RecordsAt {
 template <class Address>
 RecordsAt(Address) -> RecordsAt<Address>;
 
+/// Four doubles, not set to zero unless made by HalfLine{}.
 struct alignas(32) HalfLine {
-  double value[4] = {};
+  double value[4];
 
   double& operator[](int i) { return value[i]; }
   double operator[](int i) const { return value[i]; }

@@ -98,11 +98,11 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   } else {
     spring = turned_into_plane<Real>(spring, c.normal) + step * slip;
   }
-  const Real trial = stiffness * length<Real>(spring);
-  spring = cut(trial, limit) * spring;
-  Vector tangential =
-      -stiffness * spring - select(trial > limit, zero, law.tangential_damping * damping) * slip;
-  tangential = cut<Real>(length<Real>(tangential), limit) * tangential;
+  const Real trial_square = stiffness * stiffness * dot(spring, spring), limit_square = limit * limit;
+  spring = cut(trial_square, limit, limit_square) * spring;
+  Vector tangential = -stiffness * spring -
+                      select(trial_square > limit_square, zero, law.tangential_damping * damping) * slip;
+  tangential = cut<Real>(dot(tangential, tangential), limit, limit_square) * tangential;
   memory.spring = touches * spring;
   if constexpr (cohesion == Cohesion::none)
     result.force = pushing * c.normal + tangential;

@@ -39,24 +39,20 @@ struct ContactAction {
   Real repulsion{};       ///< elastic, >= 0 [N]; Coulomb's limit is mu times this
 };
 
-template <class Real>
-SEEDFLOW_INLINE Real length(const VectorOf<Real>& a) {
-  return root(dot(a, a));
-}
-
 /// A vector kept in the tangent plane of a contact that turns: its part along the normal is removed and its
 /// length restored.
 template <class Real>
 SEEDFLOW_INLINE VectorOf<Real> turned_into_plane(const VectorOf<Real>& a, const VectorOf<Real>& normal) {
   const VectorOf<Real> projected = a - dot(a, normal) * normal;
-  const Real left = lane_max(dot(projected, projected), Real{} + 1e-200);
-  return (length<Real>(a) * inverse_root(left)) * projected;
+  // |a| / |projected| with one root.
+  const Real square = dot(a, a);
+  return (square * inverse_root(lane_max(square * dot(projected, projected), Real{} + 1e-200))) * projected;
 }
 
-/// Factor that cuts a vector of length `size` to at most `limit`.
+/// Factor that cuts a vector to the length `limit` if the square of its length is above limit_square.
 template <class Real>
-SEEDFLOW_INLINE Real cut(Real size, Real limit) {
-  return select(size > limit, limit * inverse(lane_max(size, Real{} + 1e-100)), Real{} + 1.0);
+SEEDFLOW_INLINE Real cut(Real square, Real limit, Real limit_square) {
+  return select(square > limit_square, limit * inverse_root(lane_max(square, Real{} + 1e-200)), Real{} + 1.0);
 }
 
 }  // namespace seedflow

@@ -22,9 +22,9 @@ template <class Real>
 SEEDFLOW_INLINE VectorOf<Real> constant_rolling_torque(const RollingNumbers& n,
                                                        const ContactKinematics<Real>& c, Real repulsion,
                                                        double inverse_step) {
-  const Real speed = length<Real>(c.spin);
-  const Real size = lane_min(n.coefficient * repulsion * c.rolling_radius, inverse_step * c.inertia * speed);
-  return (-size * inverse(lane_max(speed, Real{} + 1e-100))) * c.spin;
+  const Real inverse_spin = inverse_root(lane_max(dot(c.spin, c.spin), Real{} + 1e-200));
+  return -lane_min(n.coefficient * repulsion * c.rolling_radius * inverse_spin, inverse_step * c.inertia) *
+         c.spin;
 }
 
 /// Elastic-plastic spring and dashpot (model C of Ai et al. 2011; spring of Iwashita & Oda 1998):
@@ -39,10 +39,11 @@ SEEDFLOW_INLINE VectorOf<Real> epsd_rolling_torque(const RollingNumbers& n, cons
   const VectorOf<Real> rate = c.spin - dot(c.spin, c.normal) * c.normal;
   angle = turned_into_plane<Real>(angle, c.normal) + step * rate;
   const Real lever = n.coefficient * c.rolling_radius, spring = 2.25 * stiffness * lever * lever;
-  const Real torque = spring * norm(angle), limit = repulsion * lever;
-  angle = cut(torque, limit) * angle;
+  const Real limit = repulsion * lever, limit_square = limit * limit;
+  const Real torque_square = spring * spring * dot(angle, angle);
+  angle = cut(torque_square, limit, limit_square) * angle;
   const Real dashpot = 2 * n.damping_ratio * lane_sqrt(c.share * c.contact_inertia * spring);
-  const Real active = select(torque > limit, Real{} + n.mobilised_damping, Real{} + 1.0);
+  const Real active = select(torque_square > limit_square, Real{} + n.mobilised_damping, Real{} + 1.0);
   return -spring * angle - active * dashpot * rate;
 }
 
