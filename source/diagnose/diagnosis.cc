@@ -196,12 +196,12 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   // Pre-checks.
   const Eigen::VectorXd& base = responses.base();
   const std::vector<bool> usable = usable_conditions(model, base, answer);
-  for (const auto& [quantity, error] : model.add_scatter()) {
+  for (const auto& [quantity, error] : model.add_scatter(responses.settings())) {
     std::ostringstream text;
     text.precision(2);
     text << "Repetitions scatter: " << quantity << " is the mean of " << model.repeats()
-         << " runs with other random numbers, its standard error of " << error
-         << " (SI) is part of the uncertainty.";
+         << " runs with other random numbers, its standard error of " << error.first << " to " << error.second
+         << " (SI, by condition) is part of the uncertainty.";
     answer.remarks.push_back(text.str());
   }
   DataNoise noise(model.points());

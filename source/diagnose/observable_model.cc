@@ -39,6 +39,9 @@ std::string key_of(const std::string& head, const PreparedRun::Changes& changed)
   return key;
 }
 
+/// Of the scatter under all conditions in that under one, in degrees of freedom.
+constexpr double weight_of_other_conditions = 4;
+
 std::string hash(const std::string& text) {
   std::uint64_t h = 14695981039346656037ull;  // FNV-1a
   for (const unsigned char c : text) h = (h ^ c) * 1099511628211ull;
@@ -268,27 +271,47 @@ const std::string& ObservableModel::coordinate_name(const std::string& quantity)
       ->coordinate;
 }
 
-std::map<std::string, double> ObservableModel::add_scatter() {
-  std::map<std::string, double> square, freedom, error;
-  if (n_repeats < 2) return error;
-  for (std::size_t c = 0; c < ready.size(); ++c) {
-    std::vector<std::vector<double>> values;
-    for (const PreparedRun::Changes& changed : repeated({}, static_cast<int>(c))) {
-      const RunOutcome& outcome = run({problem.conditions[c], *ready[c], wanted[c], key_heads[c]}, changed);
-      if (outcome.ok()) values.push_back(outcome.values);
+std::map<std::string, std::pair<double, double>> ObservableModel::add_scatter(
+    const std::vector<Setting>& settings) {
+  std::map<std::string, std::pair<double, double>> range;
+  if (n_repeats < 2) return range;
+  struct Squares {
+    double sum = 0, freedom = 0;
+  };
+  std::map<std::string, Squares> everywhere;
+  std::map<std::pair<std::string, int>, Squares> under;
+  for (const Setting& setting : settings)
+    for (std::size_t c = 0; c < ready.size(); ++c) {
+      const Chosen model = chosen(setting, static_cast<int>(c));
+      if (!model.model) continue;
+      std::vector<std::vector<double>> values;
+      for (const PreparedRun::Changes& changed : repeated(setting, static_cast<int>(c))) {
+        const RunOutcome& outcome = run({model.condition, *model.model, wanted[c], model.key_head}, changed);
+        if (outcome.ok()) values.push_back(outcome.values);
+      }
+      if (values.size() < 2) continue;
+      for (std::size_t i = 0; i < wanted[c].size(); ++i) {
+        double mean = 0;
+        for (const auto& v : values) mean += v[i] / static_cast<double>(values.size());
+        for (Squares* s :
+             {&everywhere[wanted[c][i].quantity], &under[{wanted[c][i].quantity, static_cast<int>(c)}]}) {
+          for (const auto& v : values) s->sum += (v[i] - mean) * (v[i] - mean);
+          s->freedom += static_cast<double>(values.size()) - 1;
+        }
+      }
     }
-    if (values.size() < 2) continue;
-    for (std::size_t i = 0; i < wanted[c].size(); ++i) {
-      double mean = 0;
-      for (const auto& v : values) mean += v[i] / static_cast<double>(values.size());
-      for (const auto& v : values) square[wanted[c][i].quantity] += (v[i] - mean) * (v[i] - mean);
-      freedom[wanted[c][i].quantity] += static_cast<double>(values.size()) - 1;
-    }
+  for (DataPoint& point : data) {
+    const auto all = everywhere.find(point.quantity);
+    if (all == everywhere.end()) continue;
+    const Squares& here = under[{point.quantity, point.condition}];
+    const double variance = (weight_of_other_conditions * all->second.sum / all->second.freedom + here.sum) /
+                            (weight_of_other_conditions + here.freedom);
+    const double error = std::sqrt(variance / n_repeats);
+    point.sigma = std::hypot(point.sigma, error);
+    auto& [low, high] = range.try_emplace(point.quantity, error, error).first->second;
+    low = std::min(low, error), high = std::max(high, error);
   }
-  for (const auto& [quantity, sum] : square) error[quantity] = std::sqrt(sum / freedom[quantity] / n_repeats);
-  for (DataPoint& point : data)
-    if (error.count(point.quantity)) point.sigma = std::hypot(point.sigma, error[point.quantity]);
-  return error;
+  return range;
 }
 
 double ObservableModel::share_in_range(const std::string& effect) {

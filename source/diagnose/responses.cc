@@ -39,17 +39,21 @@ Setting Responses::with_input(Setting setting, int nuisance) const {
 }
 
 void Responses::prepare() {
-  std::vector<Setting> settings = {{}};
+  model.prepare_runs(settings());
+}
+
+std::vector<Setting> Responses::settings() const {
+  std::vector<Setting> list = {{}};
   for (int k = 0; k < static_cast<int>(model.candidates().size()); ++k)
     for (const double a : nodes) {
       if ((frugal || model.candidates()[k].entries.empty()) && a != 1) continue;
-      settings.push_back({});
-      settings.back().amplitude[k] = a;
+      list.push_back({});
+      list.back().amplitude[k] = a;
     }
   for (int m = 0; m < static_cast<int>(model.nuisances().size()); ++m)
-    settings.push_back(with_input(Setting(), m));
-  if (model.can_halve_step()) settings.push_back(half_step());
-  model.prepare_runs(settings);
+    list.push_back(with_input(Setting(), m));
+  if (model.can_halve_step()) list.push_back(half_step());
+  return list;
 }
 
 void Responses::prepare(const std::vector<std::vector<int>>& sets) {

@@ -60,14 +60,21 @@ TEST(Scatter, OfRepetitionsAddsToTheUncertainty) {
   ObservableModel model(p, store);
   const Eigen::VectorXd mean = model.predict({});
   EXPECT_EQ(store.computed(), 6);  // two conditions, three repeats
-  const auto error = model.add_scatter();
+  const auto error = model.add_scatter({{}});
   EXPECT_EQ(store.computed(), 6);
   ASSERT_EQ(error.count("centre of mass angle"), 1u);
-  const double e = error.at("centre of mass angle");
-  EXPECT_GT(e, 1e-4);  // chaotic, but not without bounds
-  EXPECT_LT(e, 0.5);
+  const auto [low, high] = error.at("centre of mass angle");
+  EXPECT_GT(low, 1e-4);  // chaotic, but not without bounds
+  EXPECT_LT(high, 0.5);
+  const double stated = 0.1 * M_PI / 180;
+  double least = 1, most = 0;
   for (const DataPoint& point : model.points())
-    EXPECT_NEAR(point.sigma, std::hypot(0.1 * M_PI / 180, e), 1e-12);
+    least = std::min(least, point.sigma), most = std::max(most, point.sigma);
+  EXPECT_NEAR(least, std::hypot(stated, low), 1e-12);
+  EXPECT_NEAR(most, std::hypot(stated, high), 1e-12);
+  // Four degrees of freedom of the mean variance beside the two of a condition's own three runs: at most
+  // (4 + 2 x 2)/(4 + 0) between the two conditions.
+  EXPECT_LE(high * high, 2 * low * low * (1 + 1e-12));
   for (Eigen::Index i = 0; i < mean.size(); ++i) EXPECT_GT(mean[i], 0);  // the bed is carried up
 }
 

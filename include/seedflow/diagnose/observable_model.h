@@ -57,9 +57,10 @@ class ObservableModel {
   Eigen::VectorXd predict(const Setting& setting);
   /// Makes the runs of several settings at once, shared over the ranks; predict() then finds them done.
   void prepare_runs(const std::vector<Setting>& settings);
-  /// Where repetitions scatter: adds the standard error of the means, pooled over the conditions of the base
-  /// model, to the uncertainty of every point; returns it per quantity [SI]. Empty otherwise.
-  std::map<std::string, double> add_scatter();
+  /// Where repetitions scatter: adds the standard error of their mean to the uncertainty of every point, and
+  /// returns the smallest and largest by quantity. Estimated under every condition from the repetitions of
+  /// all these settings, drawn towards the mean of all conditions with the weight of a few repetitions.
+  std::map<std::string, std::pair<double, double>> add_scatter(const std::vector<Setting>& settings);
   int repeats() const { return n_repeats; }
   /// From now on so many runs more than were asked for so far are allowed.
   void allow(long runs) { allowed = runs; }

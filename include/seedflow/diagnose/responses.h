@@ -22,6 +22,8 @@ class Responses {
   };
   /// Makes the runs of base model, candidates, inputs and half step together, shared over the ranks.
   void prepare();
+  /// What those runs are.
+  std::vector<Setting> settings() const;
   /// The same for sets of candidates and the inputs beside them.
   void prepare(const std::vector<std::vector<int>>& sets);
   const Eigen::VectorXd& base();
