@@ -26,7 +26,8 @@ std::vector<double> running_mean(const Silhouette::Boundary& b, double width) {
 /// \param side -1: left of the top, +1: right of it.
 Flank fit_flank(const Silhouette::Boundary& b, int side, double base, double height, double top,
                 const HeapAngleSettings& settings) {
-  const double low = base + settings.lowest_part * height, high = base + settings.highest_part * height;
+  const double low = base + std::max(settings.lowest_part * height, settings.layer),
+               high = base + settings.highest_part * height;
   const auto fit = [&](double from, double to) {
     std::vector<double> x, y;
     for (std::size_t i = 0; i < b.x.size(); ++i)

@@ -33,14 +33,17 @@ void ReposeAngle::declare(Parameters& p) {
   }
   const auto section = p.section("Angle", "How the angle is read off the picture of the heap.");
   p.number("Pixel", measuring.pixel, "m", Range{1e-6, 1e-3}, "Edge of a pixel.");
-  p.number("Lowest part", measuring.lowest_part, "1", Range::between(0, 0.5),
-           "The flanks are fitted from this part of the heap's height ...");
+  p.number(
+      "Lowest part", measuring.lowest_part, "1", Range::between(0, 0.5),
+      "The flanks are fitted from this part of the heap's height, but not within the layer one seed high "
+      "at its foot, ...");
   p.number("Highest part", measuring.highest_part, "1", Range::between(0.5, 1), "... up to this one.");
 }
 
 void ReposeAngle::check(const Parameters& p) {
   granular.check(p, {"Tester/Material", "Tester/Plate material"});
   measuring.smoothing = granular.model.diameter;
+  measuring.layer = 1.05 * granular.model.diameter;
   if (outlet > box_width)
     p.reject("Tester/Outlet", "it is wider than the box", "use at most Tester/Box width");
   if (floor_width < box_width)

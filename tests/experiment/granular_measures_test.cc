@@ -147,6 +147,18 @@ TEST(HeapAngleTest, StragglersAndToeAreLeftOut) {
   EXPECT_NEAR(heap_angle(b, 0, {}).mean / degree, 28, 0.01);
 }
 
+// A layer one seed high around a low heap is not its flank: followed, it flattens the line, which then
+// reaches further.
+TEST(HeapAngleTest, LayerAtTheFootIsNoFlank) {
+  Silhouette::Boundary b = heap_boundary(22 * degree, 22 * degree, 0, 1);
+  for (double& y : b.y) y = std::max(y - 24e-3, 4e-3);
+  HeapAngleSettings settings;
+  settings.layer = 4.2e-3;
+  EXPECT_NEAR(heap_angle(b, 0, settings).mean / degree, 22, 0.01);
+  settings.layer = 0;
+  EXPECT_LT(heap_angle(b, 0, settings).mean / degree, 20);
+}
+
 TEST(HeapAngleTest, NoHeap) {
   Silhouette::Boundary flat;
   for (int i = 0; i < 1000; ++i) flat.x.push_back(1e-4 * i), flat.y.push_back(4e-3);

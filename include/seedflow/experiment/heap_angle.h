@@ -11,6 +11,7 @@ struct HeapAngleSettings {
   double smoothing = 4e-3;   ///< width of the running mean that finds the top, about one seed [m]
   double lowest_part = 0.1;  ///< the flank is fitted between these parts of the heap's height [1]:
   double highest_part = 0.85;
+  double layer = 0;  ///< but not below this height: seeds that lie there in one layer have no slope [m]
 };
 
 /// A straight flank y = height + slope x fitted to boundary pixels.
