@@ -97,7 +97,7 @@ void PairList::find_touching(Segment& segment, const ContactBodies& bodies) {
 
 template <Rolling rolling, Cohesion cohesion, bool partial, bool levers>
 void PairList::add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
-                           double step) {
+                           const ContactTimes& times) {
   constexpr bool whole = remembers_more<rolling, cohesion, partial>;
   const ContactSphere* const sphere = bodies.state.data();
   const ContactMotion* const motion = bodies.motion.data();
@@ -132,7 +132,7 @@ void PairList::add_segment(const Segment& segment, const ContactLaw& law, Contac
           RecordsAt{[&](int l) { return centre + body(t[l].second); }});
     LaneMemory<LanePair, whole> remembered(RecordsAt{[&](int l) { return memory.first(t[l].line); }},
                                            RecordsAt{[&](int l) { return memory.second(t[l].line); }});
-    const auto action = act_between<rolling, cohesion, partial>(law, a, b, share, step, remembered.memory);
+    const auto action = act_between<rolling, cohesion, partial>(law, a, b, share, times, remembered.memory);
     ContactSum on_a[width], on_b[width];
     HalfLine kept[width];
     records_of(action.force, action.torque_a, on_a);
@@ -150,21 +150,22 @@ void PairList::add_segment(const Segment& segment, const ContactLaw& law, Contac
   }
 }
 
-void PairList::act(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, double step) {
+void PairList::act(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
+                   const ContactTimes& times) {
   with_models(law, [&](auto rolling, auto cohesion, auto partial) {
     constexpr Rolling r = decltype(rolling)::value;
     constexpr Cohesion c = decltype(cohesion)::value;
     constexpr bool p = decltype(partial)::value;
     if constexpr (c == Cohesion::none && !p)
-      if (!bodies.levers()) return add_segment<r, c, p, false>(segment, law, bodies, step);
-    add_segment<r, c, p, true>(segment, law, bodies, step);
+      if (!bodies.levers()) return add_segment<r, c, p, false>(segment, law, bodies, times);
+    add_segment<r, c, p, true>(segment, law, bodies, times);
   });
 }
 
 // Tested and acted upon in pieces, so that the bodies are still in the cache. Touching pairs that do not fill
 // the lanes wait for the next piece.
 void PairList::add_in_pieces(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
-                             double step) {
+                             const ContactTimes& times) {
   int waiting = 0;
   for (int begin = segment.begin; begin < segment.end; begin += piece) {
     Segment part = segment;
@@ -175,15 +176,16 @@ void PairList::add_in_pieces(const Segment& segment, const ContactLaw& law, Cont
     const int found = part.touching_end;
     part.touching_begin = 0;
     if (part.end < segment.end) part.touching_end -= found % width;
-    act(part, law, bodies, step);
+    act(part, law, bodies, times);
     waiting = found - part.touching_end;
     std::copy_n(touching.begin() + part.touching_end, waiting, touching.begin());
   }
 }
 
-void PairList::add_forces(const std::vector<ContactLaw>& laws, ContactBodies& bodies, double step) {
+void PairList::add_forces(const std::vector<ContactLaw>& laws, ContactBodies& bodies,
+                          const ContactTimes& times) {
   if (same_seeds.empty()) {
-    for (const Segment& segment : segments) add_in_pieces(segment, laws[segment.law], bodies, step);
+    for (const Segment& segment : segments) add_in_pieces(segment, laws[segment.law], bodies, times);
     return;
   }
   int begin = 0;
@@ -194,7 +196,7 @@ void PairList::add_forces(const std::vector<ContactLaw>& laws, ContactBodies& bo
   }
   std::fill(n_in_group.begin(), n_in_group.end(), 0);
   for (int k = 0; k < begin; ++k) ++n_in_group[same_seeds[touching[k].pair]];
-  for (const Segment& segment : segments) act(segment, laws[segment.law], bodies, step);
+  for (const Segment& segment : segments) act(segment, laws[segment.law], bodies, times);
 }
 
 void PairList::collect(const ContactBodies& bodies, std::vector<ContactHistory::Pair>& out) const {

@@ -28,7 +28,7 @@ void Dem::advance(double duration) {
   if (arrangement_is_due()) arrange();
   if (!divided) divide();
   number();
-  if (!forces_known) evaluate_forces();
+  if (!forces_known) evaluate_forces(step);
   relax_factors(step);
   begin_impulses(step);
   // Velocity Verlet; the second half kick of one substep and the first of the next are one.
@@ -58,14 +58,14 @@ void Dem::advance(double duration) {
   check_state(now);
 }
 
-void Dem::evaluate_forces() {
+void Dem::evaluate_forces(double step) {
   for (SeedStore& s : store) {
     std::fill(s.force.begin(), s.force.end(), ForceLanes{});
     std::fill(s.body_force.begin(), s.body_force.end(), ForceLanes{});
   }
   park();
   make_lists(now);
-  contacts.add_forces(all_walls, placements(now), 0);
+  contacts.add_forces(all_walls, placements(now), {0, step});
   for (std::size_t t = 0; t < store.size(); ++t)
     for (int b = share.begin(t); b < share.end(t); ++b) {
       SeedStore& s = store[t];

@@ -99,7 +99,7 @@ void WallList::find_touching(Segment& segment, const std::vector<Wall>& walls,
 
 template <Rolling rolling, Cohesion cohesion, bool partial, bool levers>
 void WallList::add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
-                           double step) {
+                           const ContactTimes& times) {
   constexpr bool whole = remembers_more<rolling, cohesion, partial>;
   for (int k = segment.touching_begin; k < segment.touching_end; k += lane_width) {
     const int n = std::min(lane_width, segment.touching_end - k);
@@ -120,8 +120,9 @@ void WallList::add_segment(const Segment& segment, const ContactLaw& law, Contac
         RecordsAt{[&](int l) { return memory.second(touching[number(l)].line); }});
     Lanes p[8];
     load_columns(RecordsAt{[&](int l) { return &point[number(l)]; }}, p);
-    const auto action = act_on_wall<rolling, cohesion, partial>(
-        law, a, LaneVec3{p[0], p[1], p[2]}, p[3], LaneVec3{p[4], p[5], p[6]}, share, step, remembered.memory);
+    const auto action =
+        act_on_wall<rolling, cohesion, partial>(law, a, LaneVec3{p[0], p[1], p[2]}, p[3],
+                                                LaneVec3{p[4], p[5], p[6]}, share, times, remembered.memory);
     ContactSum on_a[lane_width];
     HalfLine kept[lane_width];
     records_of(action.force, action.torque_a, on_a);
@@ -139,7 +140,8 @@ void WallList::add_segment(const Segment& segment, const ContactLaw& law, Contac
 }
 
 void WallList::add_forces(const std::vector<ContactLaw>& laws, const std::vector<Wall>& walls,
-                          const std::vector<Placement>& place, ContactBodies& bodies, double step) {
+                          const std::vector<Placement>& place, ContactBodies& bodies,
+                          const ContactTimes& times) {
   std::swap(touching, before), std::swap(point, point_before);
   touching.clear(), point.clear();
   for (Segment& segment : segments) find_touching(segment, walls, place, bodies);
@@ -153,8 +155,8 @@ void WallList::add_forces(const std::vector<ContactLaw>& laws, const std::vector
       constexpr Cohesion c = decltype(cohesion)::value;
       constexpr bool p = decltype(partial)::value;
       if constexpr (c == Cohesion::none && !p)
-        if (!bodies.levers()) return add_segment<r, c, p, false>(segment, laws[segment.law], bodies, step);
-      add_segment<r, c, p, true>(segment, laws[segment.law], bodies, step);
+        if (!bodies.levers()) return add_segment<r, c, p, false>(segment, laws[segment.law], bodies, times);
+      add_segment<r, c, p, true>(segment, laws[segment.law], bodies, times);
     });
 }
 

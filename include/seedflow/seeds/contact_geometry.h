@@ -77,7 +77,7 @@ struct PairAction {
 template <Rolling rolling, Cohesion cohesion, bool partial = true, class Real, bool levers>
 SEEDFLOW_INLINE PairAction<Real> act_between(const ContactLaw& law, const LaneSphere<Real, levers>& a,
                                              const LaneSphere<Real, levers>& b, const Real& share,
-                                             double step, ContactMemory<Real>& memory) {
+                                             const ContactTimes& times, ContactMemory<Real>& memory) {
   using Vector = VectorOf<Real>;
   const Vector d = a.position - b.position;
   const Real square = dot(d, d);
@@ -118,7 +118,7 @@ SEEDFLOW_INLINE PairAction<Real> act_between(const ContactLaw& law, const LaneSp
       c.contact_inertia = ia * ib * inverse(ia + ib);
     }
   }
-  const ContactAction<Real> action = contact_action<rolling, cohesion, partial>(law, c, step, memory);
+  const ContactAction<Real> action = contact_action<rolling, cohesion, partial>(law, c, times, memory);
   PairAction<Real> result;
   result.force = action.force;
   if constexpr (levers) {
@@ -138,7 +138,7 @@ template <Rolling rolling, Cohesion cohesion, bool partial = true, class Real, b
 SEEDFLOW_INLINE PairAction<Real> act_on_wall(const ContactLaw& law, const LaneSphere<Real, levers>& a,
                                              const VectorLanes<Real>& normal, const Real& distance,
                                              const VectorLanes<Real>& wall_velocity, const Real& share,
-                                             double step, ContactMemory<Real>& memory) {
+                                             const ContactTimes& times, ContactMemory<Real>& memory) {
   ContactKinematics<Real> c;
   c.normal = normal;
   c.overlap = a.radius - distance;
@@ -155,7 +155,7 @@ SEEDFLOW_INLINE PairAction<Real> act_on_wall(const ContactLaw& law, const LaneSp
     c.inertia = a.inertia;
     c.contact_inertia = a.inertia + a.mass * square;
   }
-  const ContactAction<Real> action = contact_action<rolling, cohesion, partial>(law, c, step, memory);
+  const ContactAction<Real> action = contact_action<rolling, cohesion, partial>(law, c, times, memory);
   PairAction<Real> result;
   result.force = action.force;
   result.torque_a = cross(lever, action.force) + action.torque;

@@ -57,9 +57,8 @@ SEEDFLOW_INLINE NormalForce<Real> normal_force_of(const ContactLaw& law, const C
 }
 
 /// The law, without branches, once for one contact and for lanes. `partial`: it may be one with partial slip.
-/// `step` [s]: time since the memory was last brought up to date, 0 to only evaluate. A contact with a gap
-/// that is not attached gives exactly zero and has its memory cleared, so unused lanes may hold any finite
-/// numbers with overlap <= 0 and attached = 0.
+/// A contact with a gap that is not attached gives exactly zero and has its memory cleared, so unused lanes
+/// may hold any finite numbers with overlap <= 0 and attached = 0.
 ///
 /// The tangential spring is turned into the present tangent plane and, when the contact slides, shortened so
 /// that the spring alone carries Coulomb's limit. Damping acts only while sticking. Without cohesion the
@@ -72,7 +71,7 @@ SEEDFLOW_INLINE NormalForce<Real> normal_force_of(const ContactLaw& law, const C
 /// 0.526.
 template <Rolling rolling, Cohesion cohesion, bool partial = true, class Real>
 SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const ContactKinematics<Real>& c,
-                                                   double step, ContactMemory<Real>& memory) {
+                                                   const ContactTimes& times, ContactMemory<Real>& memory) {
   using Vector = VectorOf<Real>;
   const Real zero{};
   const NormalForce<Real> f = normal_force_of<cohesion>(law, c, memory.attached);
@@ -93,10 +92,10 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
   Vector spring = memory.spring;
   if (partial && cohesion == Cohesion::none && law.partial_slip > 0) {
     partial_slip<Real>(law.partial_slip, c, slip, normal_speed, limit / lane_max(stiffness, zero + 1e-100),
-                       step, spring, memory.attached);
+                       times.passed, spring, memory.attached);
     memory.attached *= touches;
   } else {
-    spring = turned_into_plane<Real>(spring, c.normal) + step * slip;
+    spring = turned_into_plane<Real>(spring, c.normal) + times.passed * slip;
   }
   const Real trial_square = stiffness * stiffness * dot(spring, spring), limit_square = limit * limit;
   spring = cut(trial_square, limit, limit_square) * spring;
@@ -110,12 +109,12 @@ SEEDFLOW_INLINE ContactAction<Real> contact_action(const ContactLaw& law, const 
     result.force = (pushing - c.share * f.attraction) * c.normal + tangential;
 
   if constexpr (rolling == Rolling::constant_torque)
-    result.torque =
-        constant_rolling_torque(law.rolling_numbers, c, result.repulsion, step > 0 ? 1 / step : 1e200);
+    result.torque = constant_rolling_torque(law.rolling_numbers, c, result.repulsion,
+                                            times.step > 0 ? 1 / times.step : 1e200);
   if constexpr (rolling == Rolling::epsd) {
     const Real k = 4.0 / 3 * law.young * c.share * f.contact_radius;
-    result.torque =
-        touches * epsd_rolling_torque(law.rolling_numbers, c, result.repulsion, k, step, memory.rolling);
+    result.torque = touches * epsd_rolling_torque(law.rolling_numbers, c, result.repulsion, k, times.passed,
+                                                  memory.rolling);
     memory.rolling = touches * memory.rolling;
   }
   return result;

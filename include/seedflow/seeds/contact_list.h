@@ -43,7 +43,7 @@ class PairList {
   void set(const std::vector<SpherePair>& pairs, const std::vector<int>& law, const std::vector<int>& group,
            const std::vector<int>& entry_of, const std::vector<ContactLaw>& laws, const ContactBodies& bodies,
            const ContactHistory& history);
-  void add_forces(const std::vector<ContactLaw>& laws, ContactBodies& bodies, double step);
+  void add_forces(const std::vector<ContactLaw>& laws, ContactBodies& bodies, const ContactTimes& times);
   void collect(const ContactBodies& bodies, std::vector<ContactHistory::Pair>& out) const;
 
   int n_listed() const { return static_cast<int>(slot.size()); }
@@ -64,9 +64,11 @@ class PairList {
     int line, pair;
   };
   template <Rolling rolling, Cohesion cohesion, bool partial, bool levers>
-  void add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, double step);
-  void act(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, double step);
-  void add_in_pieces(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, double step);
+  void add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
+                   const ContactTimes& times);
+  void act(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, const ContactTimes& times);
+  void add_in_pieces(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
+                     const ContactTimes& times);
 
   std::vector<Segment> segments;
   std::vector<int> first, second;   ///< [pair] entries; lane_width zeros behind

@@ -30,6 +30,14 @@ struct ContactMemory {
   Real attached{};         ///< 1 while a cohesive contact holds, else 0; partial slip: its turning point
 };
 
+/// The times of one call of the law [s].
+struct ContactTimes {
+  ContactTimes(double substep) : passed(substep), step(substep) {}
+  ContactTimes(double since, double substep) : passed(since), step(substep) {}
+  double passed;  ///< since the memory was last brought up to date: 0 to only evaluate
+  double step;    ///< for which the force will act: limits what rolling friction may stop; 0: no limit
+};
+
 /// What a contact does to the first body; the second receives the opposite force (at the same point) and
 /// torque.
 template <class Real>

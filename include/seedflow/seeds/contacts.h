@@ -67,9 +67,10 @@ class Contacts {
   const PairList& pair_list() const { return pairs; }
 
   /// Adds the forces of all contacts to the sums of the bodies.
-  void add_forces(const std::vector<Wall>& walls, const std::vector<Placement>& placements, double step) {
-    pairs.add_forces(laws, all_bodies, step);
-    on_walls.add_forces(laws, walls, placements, all_bodies, step);
+  void add_forces(const std::vector<Wall>& walls, const std::vector<Placement>& placements,
+                  const ContactTimes& times) {
+    pairs.add_forces(laws, all_bodies, times);
+    on_walls.add_forces(laws, walls, placements, all_bodies, times);
   }
   void add_wall_forces(double factor, int n_walls, std::vector<Vec3>& sum) const {
     on_walls.add_wall_forces(factor, n_walls, sum);

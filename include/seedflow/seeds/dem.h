@@ -182,7 +182,7 @@ class Dem {
 
   void check_overlaps() const;
   // dem.cc
-  void evaluate_forces();
+  void evaluate_forces(double step);
   void contact_forces(double time, double step);
   bool lists_are_outdated(double time, double step);
   void move(Stage stage, const MotionStep& motion, double bond_step);

@@ -30,7 +30,7 @@ class WallList {
            const std::vector<int>& group, const std::vector<int>& block, const std::vector<int>& entry_of,
            const std::vector<ContactLaw>& laws, const ContactBodies& bodies, const ContactHistory& history);
   void add_forces(const std::vector<ContactLaw>& laws, const std::vector<Wall>& walls,
-                  const std::vector<Placement>& place, ContactBodies& bodies, double step);
+                  const std::vector<Placement>& place, ContactBodies& bodies, const ContactTimes& times);
   void collect(const ContactBodies& bodies, std::vector<ContactHistory::OnWall>& out) const;
 
   /// Adds factor x the force on the seeds of each block by each wall to sum[block * n_walls + wall].
@@ -61,7 +61,8 @@ class WallList {
   void find_touching(Segment& segment, const std::vector<Wall>& walls, const std::vector<Placement>& place,
                      const ContactBodies& bodies);
   template <Rolling rolling, Cohesion cohesion, bool partial, bool levers>
-  void add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies, double step);
+  void add_segment(const Segment& segment, const ContactLaw& law, ContactBodies& bodies,
+                   const ContactTimes& times);
 
   std::vector<Segment> segments;
   std::vector<Candidate> candidate;
