@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <optional>
 #include <sstream>
 
 #include "seedflow/base/binary.h"
@@ -11,52 +10,43 @@
 
 namespace seedflow {
 
+ResolvedSuctionParameters::ResolvedSuctionParameters() {
+  flow.formulation = "B";
+  flow.eddy_viscosity = 1;
+  flow.momentum_preconditioner = "ilu";  // Courant numbers in the holes are far above 1
+  flow.pressure_tolerance = flow.momentum_tolerance = 1e-7;
+}
+
 void ResolvedSuctionParameters::declare(Parameters& p) {
   mesh.declare(p);
-  {
-    const auto section = p.section("Air", "");
-    p.choice(
-        "Rotor", rotor, {"sliding", "frozen"},
-        "Computed air. sliding: the mesh of seed chamber and holes turns with the disc. frozen: it stands, "
-        "the flow is computed relative to the disc (multiple reference frames), and the mesh is moved on "
-        "in steps.");
-    p.number("Frozen angle", frozen_angle, "rad", Range::non_negative(),
-             "Rotor frozen: turn of the disc after which the mesh is moved on; 0: from hole to hole.");
-    p.number("Ramp", ramp, "s", Range::positive(), "The vacuum grows from nothing during this time.");
-    p.number("Eddy viscosity", eddy_viscosity, "1", Range::between(0, 2),
-             "Strength of the eddy viscosity of the unresolved turbulence by the WALE model; 0: none.");
-    p.number(
-        "Solid resistance", resistance, "kg/(m3 s)", Range::positive(),
-        "Binds the air inside a seed near a hole to the seed's motion. Above 1e6 a seed is tight; larger "
-        "values cost iterations.");
-    p.number("Solid margin", margin, "1", Range::between(0, 2),
-             "By so many cells a seed near a hole is larger, so that gaps finer than the mesh are shut.");
-    p.number(
-        "Solid reach", reach, "m", Range::non_negative(),
-        "Distance from a hole's mouth within which seeds are solid to the air; beyond, they feel drag. 0: "
-        "two diameters of a hole.");
-  }
-  const auto solver = p.section("Linear solver", "How the linear systems of a step are solved.");
-  p.choice("Backend", backend, {"trilinos", "petsc"},
-           "Algebraic multigrid of the pressure. trilinos: ML; petsc: BoomerAMG of hypre.");
-  p.number("Pressure tolerance", pressure_tolerance, "1", {1e-15, 0.1},
-           "Residual over right-hand side of the pressure equation.");
-  p.number("Momentum tolerance", momentum_tolerance, "1", {1e-15, 0.1},
-           "Largest velocity residual over largest velocity.");
+  const auto section = p.section("Air", "");
+  p.choice(
+      "Rotor", rotor, {"sliding", "frozen"},
+      "Computed air. sliding: the mesh of seed chamber and holes turns with the disc. frozen: it stands, "
+      "the flow is computed relative to the disc (multiple reference frames), and the mesh is moved on "
+      "in steps.");
+  p.number("Frozen angle", frozen_angle, "rad", Range::non_negative(),
+           "Rotor frozen: turn of the disc after which the mesh is moved on; 0: from hole to hole.");
+  p.number("Ramp", ramp, "s", Range::positive(), "The vacuum grows from nothing during this time.");
+  p.number("Eddy viscosity", flow.eddy_viscosity, "1", Range::between(0, 2),
+           "Strength of the eddy viscosity of the unresolved turbulence by the WALE model; 0: none.");
+  p.number("Solid resistance", resistance, "kg/(m3 s)", Range::positive(),
+           "Binds the air inside a seed near a hole to the seed's motion. Above 1e6 a seed is tight; larger "
+           "values cost iterations.");
+  p.number("Solid margin", margin, "1", Range::between(0, 2),
+           "By so many cells a seed near a hole is larger, so that gaps finer than the mesh are shut.");
+  p.number("Solid reach", reach, "m", Range::non_negative(),
+           "Distance from a hole's mouth within which seeds are solid to the air; beyond, they feel drag. 0: "
+           "two diameters of a hole.");
+  flow.declare_solver(p);
 }
 
 namespace {
 
 FluidParameters air_parameters(const ResolvedSuctionParameters& r, const SuctionParameters& s) {
-  FluidParameters p;
+  FluidParameters p = r.flow;
   p.density = s.density;
   p.viscosity = s.viscosity;
-  p.formulation = "B";
-  p.eddy_viscosity = r.eddy_viscosity;
-  p.momentum_preconditioner = "ilu";  // Courant numbers in the holes are far above 1
-  p.pressure_tolerance = r.pressure_tolerance;
-  p.momentum_tolerance = r.momentum_tolerance;
-  p.backend = r.backend;
   std::ostringstream conditions;
   conditions.precision(17);
   conditions << "ambient: pressure outlet, 0; disc: rotor wall; hole: rotor wall; housing: wall; suction: "

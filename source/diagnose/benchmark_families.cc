@@ -53,16 +53,9 @@ BenchmarkFamily finished(BenchmarkFamily family) {
 }
 
 /// Released from rest in a liquid at rest.
-BenchmarkFamily release() {
-  BenchmarkFamily f{"release", {"velocity"}, 25, {}, {}};
-  for (const Substances& s : {Substances{4e-3, 1340, 0.02},
-                              {4e-3, 2500, 0.1},
-                              {3e-3, 1200, 0.01},
-                              {6e-3, 1340, 0.05},
-                              {5e-3, 1100, 0.02},
-                              {6e-3, 7800, 0.5},
-                              {3e-3, 1340, 0.01},
-                              {5e-3, 1800, 0.06}}) {
+BenchmarkFamily released(const std::string& name, const std::vector<Substances>& substances) {
+  BenchmarkFamily f{name, {"velocity"}, 25, {}, {}};
+  for (const Substances& s : substances) {
     BenchmarkCondition c;
     c.seed = seed_of(s);
     c.end_time = 5 * response_time(c.seed);
@@ -71,23 +64,28 @@ BenchmarkFamily release() {
   return finished(f);
 }
 
-/// Released from rest, from Re 0.5 to 200.
-BenchmarkFamily wide_release() {
-  BenchmarkFamily f{"wide release", {"velocity"}, 25, {}, {}};
-  for (const Substances& s : {Substances{2e-3, 1340, 0.05},
-                              {2e-3, 1340, 0.02},
+/// Reynolds numbers from 2.5 to 22.
+BenchmarkFamily release() {
+  return released("release", {{4e-3, 1340, 0.02},
+                              {4e-3, 2500, 0.1},
+                              {3e-3, 1200, 0.01},
+                              {6e-3, 1340, 0.05},
+                              {5e-3, 1100, 0.02},
+                              {6e-3, 7800, 0.5},
                               {3e-3, 1340, 0.01},
-                              {3e-3, 2500, 0.005},
-                              {4e-3, 7800, 0.005},
-                              {3e-3, 7800, 0.02},
-                              {5e-3, 1800, 0.06},
-                              {4e-3, 1340, 0.005}}) {
-    BenchmarkCondition c;
-    c.seed = seed_of(s);
-    c.end_time = 5 * response_time(c.seed);
-    f.conditions.push_back(c);
-  }
-  return finished(f);
+                              {5e-3, 1800, 0.06}});
+}
+
+/// Reynolds numbers from 0.5 to 200.
+BenchmarkFamily wide_release() {
+  return released("wide release", {{2e-3, 1340, 0.05},
+                                   {2e-3, 1340, 0.02},
+                                   {3e-3, 1340, 0.01},
+                                   {3e-3, 2500, 0.005},
+                                   {4e-3, 7800, 0.005},
+                                   {3e-3, 7800, 0.02},
+                                   {5e-3, 1800, 0.06},
+                                   {4e-3, 1340, 0.005}});
 }
 
 /// Settling while the liquid swings sideways.

@@ -315,7 +315,6 @@ GranularScene Metering::scene(Gathered& gathered, const std::filesystem::path& f
                       "Effects/",
                       "Coupling/",
                       "Device mesh/",
-                      "Linear solver/",
                       "Device/Vacuum from",
                       "Device/Vacuum to",
                       "Device/Hole diameter",

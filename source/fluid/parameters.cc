@@ -33,7 +33,11 @@ void FluidParameters::declare(Parameters& p) {
       "one velocity per cell (finite volumes).");
   p.number("Streamline upwinding", streamline_upwinding, "1", Range::between(0, 10),
            "Factor on the SUPG time scale.");
-  const auto solver = p.section("Linear solver", "How the linear systems of a step are solved.");
+  declare_solver(p);
+}
+
+void FluidParameters::declare_solver(Parameters& p) {
+  const auto section = p.section("Linear solver", "How the linear systems of a step are solved.");
   p.choice("Backend", backend, {"trilinos", "petsc"},
            "Algebraic multigrid of the pressure. trilinos: ML; petsc: BoomerAMG of hypre.");
   p.choice("Momentum preconditioner", momentum_preconditioner, {"jacobi", "ilu"},

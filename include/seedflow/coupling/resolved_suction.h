@@ -15,18 +15,18 @@
 
 namespace seedflow {
 
-/// How the air of a metering device is computed: sections "Air", "Device mesh" and "Linear solver".
+/// How the air of a metering device is computed: sections "Air" and "Device mesh".
 struct ResolvedSuctionParameters {
+  ResolvedSuctionParameters();
+
   DeviceMeshParameters mesh;
   std::string rotor = "sliding";  ///< sliding: the mesh turns with the disc; frozen: it lags
   double ramp = 5e-3;             ///< the vacuum grows from nothing during this time [s]
-  double eddy_viscosity = 1;      ///< strength of the WALE model
+  FluidParameters flow;           ///< turbulence and solvers; the rest is set by the device
   double resistance = 1e7;        ///< of seeds near holes, see SolidSeeds [kg/(m3 s)]
   double margin = 0.5;            ///< by which they are larger, in local cells [1]
   double reach = 0;               ///< of the holes within which seeds are solid [m]; 0: two hole diameters
   double frozen_angle = 0;        ///< rotor frozen: the mesh is moved on after this angle [rad]; 0: a pitch
-  double pressure_tolerance = 1e-7, momentum_tolerance = 1e-7;
-  std::string backend = "trilinos";
 
   void declare(Parameters& parameters);
 };

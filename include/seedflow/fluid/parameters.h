@@ -29,6 +29,8 @@ struct FluidParameters {
   int max_iterations = 1000;
 
   void declare(Parameters& parameters);
+  /// The section "Linear solver" alone, for users that choose the rest themselves.
+  void declare_solver(Parameters& parameters);
 };
 
 }  // namespace seedflow
