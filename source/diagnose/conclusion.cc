@@ -255,7 +255,7 @@ void Conclusion::fill_in(const Tried& winner, Diagnosis& answer) const {
     }
   }
   answer.overrides = model.choices(setting);
-  for (const auto& [path, value] : model.changes(setting, 0))
+  for (const auto& [path, value] : model.changes(setting))
     answer.overrides.push_back(path + "=" + rounded(value, 6));
 }
 

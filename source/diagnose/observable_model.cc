@@ -73,7 +73,7 @@ ObservableModel::ObservableModel(const Problem& p, RunStore& store)
     key_heads.push_back(key_head(problem.conditions[c], wanted[c]));
 }
 
-const PreparedRun& ObservableModel::prepare(const Condition& condition) {
+const PreparedRun& ObservableModel::prepare(const Condition& condition) const {
   std::vector<std::string> all = condition.overrides;
   all.insert(all.end(), problem.overrides.begin(), problem.overrides.end());
   return store.prepared(identity + joined(all), [&] { return observer.prepare(problem.prm, all); });
@@ -94,10 +94,17 @@ double ObservableModel::base_value(const std::string& path, int condition) const
 
 std::vector<std::pair<std::string, double>> ObservableModel::changes(const Setting& setting,
                                                                      int condition) const {
+  return changes(setting, condition, *ready[condition]);
+}
+
+std::vector<std::pair<std::string, double>> ObservableModel::changes(const Setting& setting, int condition,
+                                                                     const PreparedRun& sizes) const {
   std::map<std::string, double> values = setting.entries;
   for (const auto& [k, a] : setting.amplitude)
-    for (const Candidate::Entry& e : all_candidates[k].entries)
-      values[e.path] = e.absent + a * (e.published - e.absent);
+    for (const Candidate::Entry& e : all_candidates[k].entries) {
+      const double published = e.of.empty() ? e.published : e.published * sizes.value(e.of);
+      values[e.path] = e.absent + a * (published - e.absent);
+    }
   const auto present = [&](const std::string& path) {
     const auto found = values.find(path);
     return found != values.end() ? found->second : base_value(path, condition);
@@ -111,6 +118,14 @@ std::vector<std::pair<std::string, double>> ObservableModel::changes(const Setti
   }
   if (setting.step_factor != 1) values[step_path] = setting.step_factor * base_value(step_path, condition);
   return {values.begin(), values.end()};
+}
+
+std::vector<std::pair<std::string, double>> ObservableModel::changes(const Setting& setting) const {
+  const bool shares = std::any_of(setting.amplitude.begin(), setting.amplitude.end(), [&](const auto& part) {
+    const auto& entries = all_candidates[part.first].entries;
+    return std::any_of(entries.begin(), entries.end(), [](const auto& e) { return !e.of.empty(); });
+  });
+  return changes(setting, 0, shares ? prepare({}) : *ready[0]);
 }
 
 std::string ObservableModel::key_head(const Condition& condition,

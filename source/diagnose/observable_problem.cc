@@ -8,8 +8,8 @@
 #include "seedflow/base/error.h"
 #include "seedflow/base/nearest_name.h"
 #include "seedflow/base/units.h"
+#include "seedflow/diagnose/candidate.h"
 #include "seedflow/diagnose/observable_model.h"
-#include "seedflow/effects/catalogue.h"
 #include "seedflow/effects/device_effects.h"
 
 namespace seedflow {
@@ -98,21 +98,31 @@ void ObservableModel::read_points() {
                        "\". Remove it or add its measurements.");
 }
 
+bool ObservableModel::is_off(const EffectRecord& effect) const {
+  const Candidate candidate = candidate_of(effect);
+  try {
+    if (candidate.entries.empty())
+      return ready[0]->text && ready[0]->text(effect.entry.path) == effect.entry.absent;
+    const Candidate::Entry& entry = candidate.entries[0];
+    return base_value(entry.path, 0) == entry.absent && (entry.of.empty() || base_value(entry.of, 0) != 0);
+  } catch (const InputError&) {
+    return false;  // the model has no such entry
+  }
+}
+
 void ObservableModel::choose_candidates() {
   all_candidates = problem.candidates;
   if (all_candidates.empty()) {
-    std::vector<std::string> names;
     // One realisation of a random effect is no signature; it can still be asked for by name.
     for (const EffectRecord& record : all_effect_records())
-      if (!record.random) names.push_back(record.name);
-    for (const std::string& name : names) {
-      const std::string path = "Effects/" + name + "/Strength";
-      if (name == "Inferred law" || !has_entry(path)) continue;
-      if (base_value(path, 0) == 0) all_candidates.push_back({name, {{path, 0, 1}}});
-    }
+      if (!record.random && record.name != "Inferred law" && is_off(record))
+        all_candidates.push_back(candidate_of(record));
   }
   for (const Candidate& candidate : all_candidates)
-    for (const Candidate::Entry& entry : candidate.entries) base_value(entry.path, 0);
+    for (const Candidate::Entry& entry : candidate.entries) {
+      base_value(entry.path, 0);
+      if (!entry.of.empty()) base_value(entry.of, 0);
+    }
   if (all_candidates.empty())
     throw InputError("There is no candidate: every effect of the catalogue is on in the base model.");
 }

@@ -1,15 +1,13 @@
 #include "seedflow/diagnose/problem_file.h"
 
-#include <algorithm>
 #include <cmath>
 #include <ostream>
 
 #include "seedflow/base/error.h"
-#include "seedflow/base/nearest_name.h"
 #include "seedflow/base/parameter_file.h"
 #include "seedflow/base/units.h"
-#include "seedflow/effects/catalogue.h"
-#include "seedflow/effects/device_effects.h"
+#include "seedflow/diagnose/candidate.h"
+#include "trim.h"
 
 namespace seedflow {
 
@@ -25,35 +23,6 @@ struct Overrides {
   }
 };
 
-std::string trim(const std::string& s) {
-  const auto a = s.find_first_not_of(" \t"), b = s.find_last_not_of(" \t");
-  return a == std::string::npos ? "" : s.substr(a, b - a + 1);
-}
-
-/// An effect by its name, or "PATH = PUBLISHED" for another entry of the model that is 0 without the effect.
-Candidate read_candidate(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals != std::string::npos) {
-    const std::string path = trim(text.substr(0, equals)), value = trim(text.substr(equals + 1));
-    const std::string last = path.substr(path.rfind('/') + 1);
-    if (!value.empty() && std::isalpha(static_cast<unsigned char>(value[0])))
-      return {last + " = " + value, {}, {path + "=" + value}};
-    NumberWithUnit parts;
-    try {
-      parts = split_unit(text.substr(equals + 1));
-    } catch (const InputError& error) {
-      throw InputError("Candidates: \"" + text + "\": " + error.what());
-    }
-    const Unit unit = parts.unit.empty() ? Unit() : parse_unit(parts.unit);
-    return {last, {{path, 0, std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent)}}};
-  }
-  std::vector<std::string> names;
-  for (const EffectRecord& record : all_effect_records()) names.push_back(record.name);
-  if (std::find(names.begin(), names.end(), text) == names.end())
-    throw InputError("Candidates: there is no effect \"" + text + "\". " + suggestion(text, names, "effect"));
-  return {text, {{"Effects/" + text + "/Strength", 0, 1}}};
-}
-
 }  // namespace
 
 void ProblemFile::declare(Parameters& p) {
@@ -64,7 +33,8 @@ void ProblemFile::declare(Parameters& p) {
   p.file("Possible experiments", possible_experiments,
          "CSV like Conditions: what could be measured next. Nothing: variations of the conditions.");
   p.texts("Candidates", candidates,
-          "Effects that may be missing, or PATH = VALUE for an entry that is 0 without the effect and VALUE "
+          "Effects of the catalogue that may be missing, by name, or PATH = VALUE for an entry that is 0 "
+          "without the effect and VALUE "
           "with it, or PATH = OPTION for a choice. Nothing: every effect of the catalogue that is off in the "
           "model.");
   p.texts(

@@ -12,7 +12,9 @@ namespace seedflow {
 namespace {
 
 [[noreturn]] void unknown(const std::string& name) {
-  throw InputError("There is no effect '" + name + "'. " + suggestion(name, effect_names(), "effect") +
+  std::vector<std::string> names;
+  for (const EffectRecord& record : all_effect_records()) names.push_back(record.name);
+  throw InputError("There is no effect '" + name + "'. " + suggestion(name, names, "effect") +
                    " 'seedflow effects' lists all.");
 }
 
@@ -25,8 +27,14 @@ auto& find(Effects& effects, const std::string& name) {
 
 void describe(std::ostream& out, const EffectRecord& r) {
   out << r.name << "\n  " << r.summary << "\n\n  Equation:   " << r.equation << "\n  Acts as:    " << r.slot
-      << "\n  Valid for:  " << r.validity << "\n  Signature:  " << r.signature << "\n  Strength:   0 to "
-      << (r.slot == "contact" ? 1 : 2) << ", 1 as published, in a fresh run " << r.standard_strength << '\n';
+      << "\n  Valid for:  " << r.validity << "\n  Signature:  " << r.signature << '\n';
+  if (r.entry.path.empty())
+    out << "  Strength:   0 to " << (r.slot == "contact" ? 1 : 2) << ", 1 as published, in a fresh run "
+        << r.standard_strength << '\n';
+  else
+    out << "  Entry:      " << r.entry.path << " = " << r.entry.present
+        << (r.entry.of.empty() ? "" : " x " + r.entry.of) << ", without the effect " << r.entry.absent
+        << '\n';
   for (const auto& n : r.numbers)
     out << "  Parameter:  " << n.name << " = " << n.published << (n.unit == "1" ? "" : " " + n.unit) << " ("
         << n.range.low << " to " << n.range.high << "): " << n.doc << '\n';

@@ -2,6 +2,7 @@
 
 #include "seedflow/effects/catalogue.h"
 #include "seedflow/effects/contact_effects.h"
+#include "seedflow/effects/model_effects.h"
 
 namespace seedflow {
 namespace {
@@ -58,7 +59,7 @@ std::vector<EffectRecord> device_effect_records() {
 std::vector<EffectRecord> all_effect_records() {
   std::vector<EffectRecord> records;
   for (const auto& definition : effect_catalogue()) records.push_back(definition.record);
-  for (const auto& others : {contact_effect_records(), device_effect_records()})
+  for (const auto& others : {contact_effect_records(), device_effect_records(), model_effect_records()})
     records.insert(records.end(), others.begin(), others.end());
   return records;
 }

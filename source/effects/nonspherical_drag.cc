@@ -7,7 +7,7 @@ EffectDefinition nonspherical_drag() {
   EffectRecord r;
   r.name = "Nonspherical drag";
   r.slot = "force on a body";
-  r.summary = "More drag on a body that is not a sphere, as a factor on the drag.";
+  r.summary = "Shape (sphericity): more drag on a body that is not a sphere, as a factor on it.";
   r.equation =
       "k -> k C_D(Re, phi)/C_D(Re, 1) with the correlation of Haider and Levenspiel, phi = surface of the "
       "sphere of "

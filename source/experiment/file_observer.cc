@@ -60,6 +60,11 @@ Observer make_observer(const FileObserver& given) {
       files->read(options, [&](const Parameters& p) { value = to_si(p.value(path), p.unit(path)); });
       return value;
     };
+    run.text = [files, options](const std::string& path) {
+      std::string value;
+      files->read(options, [&](const Parameters& p) { value = p.value(path); });
+      return value;
+    };
     run.simulate = [files, options](const PreparedRun::Changes& changes,
                                     const std::vector<WantedValue>& wanted, MPI_Comm comm) {
       RunOptions changed = options;

@@ -47,6 +47,11 @@ void GranularParameters::declare(Parameters& p) {
   dem.declare(p);
 }
 
+void GranularParameters::declare_air_drag(Parameters& p) {
+  const auto section = p.section("Effects", "");
+  air_drag.declare(p);
+}
+
 void GranularParameters::check(const Parameters& p, const std::vector<std::string>& wall_materials) {
   model.check(p, "Seeds", SeedTemplateParameters());
   materials.check(p, {seed_material});

@@ -60,6 +60,7 @@ int GranularJob::finish(Summary& summary, const std::function<void()>& write_fil
     std::cout << "report: " << (std::filesystem::path(options.output) / "report.html").string() << std::endl;
   });
   summary.require_conservation();
+  run.require_action();
   return exit_done;
 }
 

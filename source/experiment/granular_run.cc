@@ -33,6 +33,7 @@ GranularRun::GranularRun(const GranularParameters& p, const GranularScene& the_s
   seeds.set_domain(scene.low, scene.high);
   add_seeds();
   seeds.check();
+  if (parameters.air_drag.settings().strength > 0) air.emplace(parameters.air_drag, parameters.dem.gravity);
 }
 
 void GranularRun::add_seeds() {
@@ -85,6 +86,8 @@ void GranularRun::advance() {
   Vec3 from_outside;
   if (start_time >= 0 && scene.advance)
     from_outside = scene.advance(seeds, dt);
+  else if (start_time >= 0 && air)
+    from_outside = air->advance(seeds, dt);
   else
     seeds.advance(dt);
   momentum_error += (seeds.momentum() - momentum) - (walls_gave() - given) - from_outside -
@@ -108,6 +111,7 @@ void GranularRun::save(CheckpointWriter& checkpoint) const {
   write_binary(state, momentum_error);
   write_binary(state, weight_impulse);
   if (scene.save) scene.save(state);
+  if (air && start_time >= 0) air->save(checkpoint.stream("air"));
   seeds.save(checkpoint.stream("seeds"));
 }
 
@@ -126,6 +130,7 @@ void GranularRun::load(CheckpointReader& checkpoint) {
     if (!std::binary_search(labels.begin(), labels.end(), seeds.seed_label(s))) gone.push_back(s);
   seeds.remove_seeds(gone);
   seeds.load(checkpoint.stream("seeds"));
+  if (air && start_time >= 0) air->load(checkpoint.stream("air"));
   if (start_time >= 0) begin(start_time);
 }
 
@@ -133,7 +138,7 @@ bool GranularRun::use_cached_filling(const Parameters& p) {
   if (parameters.cache.empty() || !checkpoint_exists(parameters.cache)) return false;
   CheckpointReader cached(parameters.cache, comm);
   std::vector<std::string> may_change = scene.not_of_filling;
-  may_change.insert(may_change.end(), {"Experiment", "Run/", "Filling/Cache", "Study/"});
+  may_change.insert(may_change.end(), {"Experiment", "Run/", "Filling/Cache", "Study/", "Effects/Air drag/"});
   cached.require_same_parameters(as_text(p), may_change);
   cached.read([&] { load(cached); });
   return true;
@@ -217,11 +222,16 @@ void GranularRun::add_balances(double wall_time, Summary& summary) const {
   if (const std::string notice = parameters.materials.notice(); !notice.empty())
     summary.text("notice", notice);
   // Round-off of forces a thousand times the weight over 1e6 steps; runs of full size show 1e-12.
-  summary.conserve("momentum of the seeds, gravity and walls",
-                   norm(momentum_error) / std::max(weight_impulse, 1e-300), 1e-9);
+  summary.conserve(
+      air ? "momentum of the seeds, gravity, walls and air" : "momentum of the seeds, gravity and walls",
+      norm(momentum_error) / std::max(weight_impulse, 1e-300), 1e-9);
   summary.observe("time", time(), "s");
   summary.observe("filling_time", start_time, "s");
   summary.observe("seeds", n_at_start, "1");
+  if (air) {
+    summary.observe("air_drag_over_weight", air->share_of_weight(), "1");
+    summary.observe("air_drag_impulse", norm(air->impulse()), "N s");
+  }
   if (const auto tilt = seeds.n_seeds() > 0 ? resting_tilt(seeds.seed_template(0)) : std::nullopt)
     summary.observe("resting_tilt", 180 / M_PI * tilt->mean, "deg");
   summary.observe("kinetic_energy_per_seed", seeds.n_seeds() > 0 ? kinetic_energy_per_seed(seeds) : 0, "J");
@@ -231,6 +241,14 @@ void GranularRun::add_balances(double wall_time, Summary& summary) const {
   summary.performance.peak_memory_MiB = peak_memory_MiB(comm);
   summary.performance.sub_sphere_steps_per_second_per_core =
       static_cast<double>(seeds.n_substeps()) * seeds.n_spheres() / std::max(wall_time, 1e-9) / cores;
+}
+
+void GranularRun::require_action() const {
+  if (air && !air->acted())
+    throw RunError(
+        "The effect \"Air drag\" is switched on but added nothing during the whole run: no seed "
+        "moved.\nRemedy: "
+        "set its Strength to 0, or check what should set the seeds in motion.");
 }
 
 std::string GranularRun::describe() const {

@@ -42,6 +42,11 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
          [&](const MeteringInput&, const Parameters& p) { value = to_si(p.value(path), p.unit(path)); });
     return value;
   };
+  run.text = [prm, overrides](const std::string& path) {
+    std::string value;
+    read(prm, overrides, [&](const MeteringInput&, const Parameters& p) { value = p.value(path); });
+    return value;
+  };
   run.simulate = [prm, overrides](const PreparedRun::Changes& changes, const std::vector<WantedValue>& wanted,
                                   MPI_Comm) {
     std::vector<std::string> all = overrides;

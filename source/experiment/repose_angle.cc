@@ -15,6 +15,7 @@ const View front;  // x to the right, z up, seen against y
 
 void ReposeAngle::declare(Parameters& p) {
   granular.declare(p);
+  granular.declare_air_drag(p);
   {
     const auto section =
         p.section("Tester", "The angle of repose tester. The paper prints no sizes; these are chosen.");

@@ -36,6 +36,7 @@ void VelocityProfile::mean(std::vector<double>& y, std::vector<double>& velocity
 
 void RotatingDrum::declare(Parameters& p) {
   granular.declare(p);
+  granular.declare_air_drag(p);
   const auto section = p.section("Drum", "The rotating container and what is measured in it.");
   p.number("Radius", radius, "m", Range::positive(), "Inside. The paper prints no size; chosen.");
   p.number("Length", length, "m", Range::positive(), "Inside. The paper prints no size; chosen.");

@@ -58,6 +58,7 @@ Vec3 SlopeScreening::loading_top() const {
 
 void SlopeScreening::declare(Parameters& p) {
   granular.declare(p);
+  granular.declare_air_drag(p);
   const auto section =
       p.section("Screen", "The inclined sieve plate, its loading area and its insert plate.");
   p.number("Inclination", inclination, "rad", Range::between(0, 1.2), "Of the plate against the horizontal.");

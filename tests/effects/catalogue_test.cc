@@ -227,10 +227,12 @@ TEST(Catalogue, TrialEvaluationsLeaveTheMemoryAlone) {
   EXPECT_THROW(once.add(back, force), RunError);
 }
 
-TEST(Catalogue, KnowsContactsAndDevicesToo) {
+TEST(Catalogue, KnowsContactsDevicesAndChoicesToo) {
   std::ostringstream list, one;
   describe_effects(list);
-  for (const char* name : {"Drag", "Rolling friction", "Seal leak", "Disc vibration"})
+  for (const char* name :
+       {"Drag", "Rolling friction", "Seal leak", "Disc vibration", "Drag shared per seed",
+        "Undisturbed velocity", "Size distribution", "Multi-contact normalisation", "Air drag"})
     EXPECT_NE(list.str().find(name), std::string::npos) << name;
   describe_effects(one, "Suction line loss");
   EXPECT_NE(one.str().find("dp = K rho/2 (Q/A)^2"), std::string::npos);
@@ -239,6 +241,20 @@ TEST(Catalogue, KnowsContactsAndDevicesToo) {
     EXPECT_TRUE(names.insert(r.name).second) << r.name;
     EXPECT_FALSE(r.equation.empty() || r.validity.empty() || r.signature.empty() || r.references.empty())
         << r.name;
+    // Either a strength or an entry with two values.
+    EXPECT_EQ(r.slot == "choice of the model", !r.entry.path.empty()) << r.name;
+    EXPECT_TRUE(r.entry.path.empty() || r.entry.absent != r.entry.present) << r.name;
+  }
+  std::ostringstream choice;
+  describe_effects(choice, "Size distribution");
+  EXPECT_NE(choice.str().find("Filling/Diameter deviation = 0.05 x Seeds/Diameter, without the effect 0"),
+            std::string::npos)
+      << choice.str();
+  try {
+    describe_effects(choice, "Air drga");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("Air drag"), std::string::npos) << error.what();
   }
 }
 

@@ -205,6 +205,47 @@ TEST_F(GranularRuns, ResumedRunIsTheSameToTheLastBit) {
   EXPECT_EQ(read_file(out("whole") / "seeds.pvd"), read_file(out("parts") / "seeds.pvd"));
 }
 
+// Balls of 100 kg/m3, the drag of which is seen. The balance holds with the impulse of the air in it, a
+// resumed run is the same, and so is one from a filling that was settled without air.
+TEST_F(GranularRuns, AirDragIsBookedAndResumed) {
+  const std::vector<std::string> light = {"Filling/Mass=0.9 g", "Run/End time=0.3 s",
+                                          "Filling/Cache=" + (folder / "filling").string(),
+                                          "Seeds/Density=100", "Seeds motion/Time step=3e-5"};
+  const auto set = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = light;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const std::string on = "Effects/Air drag/Strength=1";
+  ASSERT_EQ(run_here(with("repose.prm", set({}), "off")).status, exit_done);
+  const RunOutcome whole = run_here(with("repose.prm", set({on}), "whole"));
+  ASSERT_EQ(whole.status, exit_done) << whole.message;
+  const Summary summary = Summary::read(out("whole") / "summary.json");
+  EXPECT_GT(summary.observable("air_drag_over_weight"), 1e-3);
+  EXPECT_LT(summary.observable("air_drag_over_weight"), 0.5);
+  EXPECT_GT(summary.observable("air_drag_impulse"), 0);
+  expect_contains(read_file(out("whole") / "summary.json"), "gravity, walls and air");
+  EXPECT_EQ(read_file(out("off") / "summary.json").find("air_drag"), std::string::npos);
+  EXPECT_NE(read_file(out("off") / "series.csv"), read_file(out("whole") / "series.csv"));
+
+  std::vector<std::string> part = set({on});
+  part[1] = "Run/End time=0.2 s";
+  ASSERT_EQ(run_here(with("repose.prm", part, "parts")).status, exit_done);
+  const RunOutcome resumed = run_here(with("repose.prm", set({on}), "parts", {"--resume"}));
+  ASSERT_EQ(resumed.status, exit_done) << resumed.message;
+  EXPECT_EQ(read_file(out("whole") / "series.csv"), read_file(out("parts") / "series.csv"));
+  EXPECT_EQ(summary.observable("air_drag_impulse"),
+            Summary::read(out("parts") / "summary.json").observable("air_drag_impulse"));
+}
+
+TEST_F(GranularRuns, AirDragThatNeverActsIsAnError) {
+  const RunOutcome result =
+      run_here(with("drum.prm", {"Effects/Air drag/Strength=1", "Drum/Revolutions=0.1",
+                                 "Drum/Plateau from=0.01", "Seeds motion/Gravity=0, 0, 0"}));
+  EXPECT_EQ(result.status, exit_failed) << result.message;
+  expect_contains(result.message, "\"Air drag\" is switched on but added nothing");
+}
+
 TEST_F(GranularRuns, InterruptedWhileFilling) {
   write("stop.sh", command(with("repose.prm", {}, "stopped")) + " &\npid=$!\nfor i in $(seq 4000); do [ -f " +
                        (out("stopped") / "used.prm").string() +

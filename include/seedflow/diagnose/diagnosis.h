@@ -15,6 +15,8 @@ struct Candidate {
   struct Entry {
     std::string path;  ///< "Effects/Added mass/Strength"
     double absent = 0, published = 1;
+    /// Path of a number that `published` is a share of, under every condition anew; or "".
+    std::string of = "";
   };
   std::string name;
   std::vector<Entry> entries;

@@ -12,6 +12,8 @@
 
 namespace seedflow {
 
+struct EffectRecord;
+
 /// One measured value in SI units, tied to a condition of the model.
 struct DataPoint {
   int condition = 0, series = 0;  ///< a series is one quantity under one condition
@@ -79,6 +81,8 @@ class ObservableModel {
 
   /// Entries of the .prm that make up a setting under one condition.
   std::vector<std::pair<std::string, double>> changes(const Setting& setting, int condition) const;
+  /// The same for the base model as it stands; errors of inputs as under the first condition.
+  std::vector<std::pair<std::string, double>> changes(const Setting& setting) const;
   /// Candidates and nuisances that the base model already has.
   double base_value(const std::string& path, int condition) const;
   bool has_entry(const std::string& path) const;
@@ -92,8 +96,12 @@ class ObservableModel {
  private:
   void read_points();
   void choose_candidates();
+  /// Whether the base model has the entry of an effect and it is at its value without the effect.
+  bool is_off(const EffectRecord& effect) const;
   void choose_nuisances();
-  const PreparedRun& prepare(const Condition& condition);
+  const PreparedRun& prepare(const Condition& condition) const;
+  std::vector<std::pair<std::string, double>> changes(const Setting& setting, int condition,
+                                                      const PreparedRun& sizes) const;
   /// What is asked of the model of one condition.
   struct Asked {
     const Condition& condition;

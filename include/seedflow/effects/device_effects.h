@@ -12,7 +12,8 @@ namespace seedflow {
 /// experiments with such a device (coupling/suction_parameters.h).
 std::vector<EffectRecord> device_effect_records();
 
-/// The records of all effects: those of effect_catalogue(), of contacts and of suction devices.
+/// The records of all effects: those of effect_catalogue(), of contacts, of suction devices and of choices of
+/// the model.
 std::vector<EffectRecord> all_effect_records();
 
 }  // namespace seedflow

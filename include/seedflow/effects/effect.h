@@ -29,6 +29,15 @@ struct EffectChoice {
   std::string doc;
 };
 
+/// The entry of a model that stands for an effect without a strength of its own.
+struct EffectEntry {
+  std::string path;    ///< "Coupling/Drag on"; empty: the effect has its own, Effects/NAME/Strength
+  std::string absent;  ///< value without the effect: an option, true or false, or a number [SI]
+  std::string present;
+  /// Path of a number that `present` is a share of (5 % of the diameter), or "".
+  std::string of = "";
+};
+
 /// What is known of one physical effect. Data, not code: the .prm entries, the listing, the manual and the
 /// diagnosis all come from it.
 struct EffectRecord {
@@ -45,6 +54,7 @@ struct EffectRecord {
   bool has_memory = false;                          ///< keeps numbers of every body from step to step
   bool random = false;           ///< one realisation says little: compare the mean or spread of many
   double standard_strength = 0;  ///< of a fresh run
+  EffectEntry entry = {};        ///< of a choice of the model
 };
 
 /// The user's settings of one effect.

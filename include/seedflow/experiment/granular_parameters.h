@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "seedflow/base/parameters.h"
+#include "seedflow/effects/model_effects.h"
 #include "seedflow/seeds/dem.h"
 #include "seedflow/seeds/material_table.h"
 #include "seedflow/seeds/template_parameters.h"
@@ -38,11 +39,16 @@ struct GranularParameters {
 
   DemParameters dem;
 
+  /// Effect "Air drag" of the experiments that compute no air; these declare it (declare_air_drag), others
+  /// leave it off.
+  Effect air_drag{seedflow::air_drag()};
+
   GranularParameters() = default;
   /// With the materials that the file or the overrides name.
   GranularParameters(const std::string& file, const std::vector<std::string>& overrides)
       : materials(MaterialTable::named_in(file, overrides)) {}
   void declare(Parameters& parameters);
+  void declare_air_drag(Parameters& parameters);
   /// After reading: cross-checks. `wall_materials`: entries that name a material. Throws InputError.
   void check(const Parameters& parameters, const std::vector<std::string>& wall_materials);
 

@@ -3,9 +3,11 @@
 #include <mpi.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "seedflow/coupling/air_drag.h"
 #include "seedflow/experiment/experiment.h"
 #include "seedflow/experiment/granular_parameters.h"
 #include "seedflow/experiment/granular_view.h"
@@ -67,6 +69,8 @@ class GranularRun {
   /// After the beginning of the experiment [s]; negative while filling.
   double time() const;
   int n_seeds_at_start() const { return n_at_start; }
+  /// RunError if an effect is on that added nothing during the whole run.
+  void require_action() const;
 
  private:
   void add_seeds();
@@ -84,6 +88,7 @@ class GranularRun {
   MPI_Comm comm;
   int rank = 0;
   Dem seeds;
+  std::optional<AirDrag> air;  ///< if on; acts from the beginning of the experiment, not on the filling
   int n_at_start = 0;
   double start_time = -1;     ///< of the experiment [s]; negative: still filling
   double settling_since = 0;  ///< [s] of the Dem's clock

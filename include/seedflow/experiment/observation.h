@@ -33,6 +33,9 @@ struct UsualUncertainty {
 struct PreparedRun {
   /// The present value of a numeric entry, SI. InputError if there is none of that path.
   std::function<double(const std::string& path)> value;
+  /// The present value of any entry as text (an option, true or false). InputError if there is none of that
+  /// path; may be empty where the model has no choices that are effects.
+  std::function<std::string(const std::string& path)> text = nullptr;
   using Changes = std::vector<std::pair<std::string, double>>;
   /// Runs with some entries changed, on the processes of a communicator (collective), and returns the wanted
   /// values in order. Independent of earlier calls. Errors: InputError, RunError.
