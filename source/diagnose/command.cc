@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <ostream>
+#include <sstream>
 
+#include "least_runs.h"
 #include "seedflow/base/error.h"
 #include "seedflow/diagnose/diagnosis_files.h"
 #include "seedflow/diagnose/problem_file.h"
@@ -14,11 +16,33 @@ namespace seedflow {
 
 namespace {
 
+/// For --dry-run: what is weighed, and the runs it takes.
+int say_what_it_will_be(const Problem& problem, std::ostream& out) {
+  RunStore store;
+  const ObservableModel model(problem, store);
+  const auto listed = [&](const char* what, const auto& all, const auto& text_of) {
+    out << what;
+    for (std::size_t i = 0; i < all.size(); ++i) out << (i > 0 ? ", " : "") << text_of(all[i]);
+    out << '\n';
+  };
+  listed("Conditions: ", model.conditions(),
+         [](const Condition& c) { return c.name + (c.held_out ? " (held out)" : ""); });
+  listed("Candidates: ", model.candidates(), [](const Candidate& c) { return c.name; });
+  listed("Inputs:     ", model.nuisances(), [](const Nuisance& n) { return n.name; });
+  out << "Runs:       at least " << least_runs(model) << ", repeats included; at most " << problem.budget.runs
+      << std::endl;
+  return exit_done;
+}
+
 int run(const CommandLine&, const std::vector<std::string>& arguments, std::ostream& out) {
   const RunOptions options = read_run_options(arguments);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const Problem problem = read_problem(options.prm, options.overrides);
+  if (options.dry_run) {
+    std::ostringstream nobody;
+    return say_what_it_will_be(problem, rank == 0 ? out : nobody);
+  }
   const std::filesystem::path folder = options.output;
   const OtherBuilds others = read_other_builds(options.prm, options.overrides);
   RunStore store(folder, MPI_COMM_WORLD, others);
@@ -50,7 +74,7 @@ int run(const CommandLine&, const std::vector<std::string>& arguments, std::ostr
 }  // namespace
 
 Command diagnose_command() {
-  return {"diagnose", "diagnose FILE.prm [--set \"Section/Entry=value\"]... [--output DIR]",
+  return {"diagnose", "diagnose FILE.prm [--set \"Section/Entry=value\"]... [--output DIR] [--dry-run]",
           "find what is missing between a model and measurements", run};
 }
 

@@ -6,6 +6,7 @@
 
 #include "conclusion.h"
 #include "law_search.h"
+#include "least_runs.h"
 #include "seedflow/base/error.h"
 #include "seedflow/base/units.h"
 #include "seedflow/diagnose/experiment_design.h"
@@ -178,7 +179,7 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   const auto n_conditions = static_cast<long>(model.conditions().size());
   const auto n_candidates = static_cast<long>(model.candidates().size());
   const auto n_inputs = static_cast<long>(model.nuisances().size());
-  const long lean = n_conditions * model.repeats() * (2 + n_inputs + n_candidates);
+  const long lean = least_runs(model);
   if (problem.budget.runs < lean)
     throw InputError(
         "The budget of " + std::to_string(problem.budget.runs) +

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "falling_seed.h"
 #include "places.h"
+#include "seedflow/diagnose/command.h"
 #include "seedflow/diagnose/diagnosis_files.h"
 #include "seedflow/diagnose/observable_model.h"
 #include "seedflow/output/folder.h"
@@ -105,6 +107,27 @@ TEST(Candidates, ByNameAreTheEntryThatStandsForThem) {
   ASSERT_EQ(air.entries.size(), 1u);
   EXPECT_EQ(air.entries[0].path, "Effects/Air drag/Strength");
   EXPECT_TRUE(air.choices.empty());
+}
+
+TEST(Candidates, ADryRunListsThemAndRunsNothing) {
+  const auto folder = testing::scratch("dry_run");
+  std::filesystem::remove_all(folder / "out");
+  testing::write(folder / "c.csv", "condition,held_out\nas it is,no\n");
+  testing::write(folder / "m.csv",
+                 "condition,quantity,unit,value,standard_uncertainty\nas it is,surface angle,deg,35,1\n");
+  const std::string file =
+      testing::write(folder / "d.prm", "set Model = " + drum +
+                                           "\nset Measurements = m.csv\nset Conditions = "
+                                           "c.csv\nset Repeats = 2\n");
+  std::ostringstream said;
+  const Command command = diagnose_command();
+  EXPECT_EQ(command.execute(CommandLine(), {file, "--dry-run", "--output", (folder / "out").string()}, said),
+            0);
+  EXPECT_NE(said.str().find("Size distribution, Multi-contact normalisation, Air drag\n"), std::string::npos)
+      << said.str();
+  // Eight candidates (all of contacts and the three), two inputs, base and winner, twice.
+  EXPECT_NE(said.str().find("at least 24,"), std::string::npos) << said.str();
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 /// The coupled model for a few air steps on few cells: a tenth of a second of computing.
