@@ -13,6 +13,7 @@ namespace seedflow {
 ResolvedSuctionParameters::ResolvedSuctionParameters() {
   flow.formulation = "B";
   flow.eddy_viscosity = 1;
+  flow.convecting_velocity = "averaged";
   flow.momentum_preconditioner = "ilu";  // Courant numbers in the holes are far above 1
   flow.pressure_tolerance = flow.momentum_tolerance = 1e-7;
 }
@@ -27,7 +28,10 @@ void ResolvedSuctionParameters::declare(Parameters& p) {
       "in steps.");
   p.number("Frozen angle", frozen_angle, "rad", Range::non_negative(),
            "Rotor frozen: turn of the disc after which the mesh is moved on; 0: from hole to hole.");
-  p.number("Ramp", ramp, "s", Range::positive(), "The vacuum grows from nothing during this time.");
+  p.number("Ramp", ramp, "s", Range::positive(),
+           "The vacuum grows from nothing during this time, in which the air in fan and suction line also "
+           "follows a "
+           "change of the flow.");
   p.number("Eddy viscosity", flow.eddy_viscosity, "1", Range::between(0, 2),
            "Strength of the eddy viscosity of the unresolved turbulence by the WALE model; 0: none.");
   p.number("Solid resistance", resistance, "kg/(m3 s)", Range::positive(),
@@ -47,12 +51,18 @@ FluidParameters air_parameters(const ResolvedSuctionParameters& r, const Suction
   FluidParameters p = r.flow;
   p.density = s.density;
   p.viscosity = s.viscosity;
-  std::ostringstream conditions;
-  conditions.precision(17);
-  conditions << "ambient: pressure outlet, 0; disc: rotor wall; hole: rotor wall; housing: wall; suction: "
-             << "pressure outlet, " << s.vacuum << "*min(1,t/" << r.ramp << "); *: wall";
-  p.boundary_conditions = conditions.str();
+  p.boundary_conditions =
+      "ambient: pressure outlet, 0; disc: rotor wall; hole: rotor wall; housing: wall; suction: pressure "
+      "outlet, "
+      "0; *: wall";
   return p;
+}
+
+/// \param drop of the vacuum chamber below ambient [Pa]; must outlive the conditions
+BoundaryConditions<3> air_conditions(const FluidParameters& p, const Domain<3>& domain, const double& drop) {
+  BoundaryConditions<3> conditions = parse_boundary_conditions(p.boundary_conditions, domain);
+  conditions.at("suction").pressure = [&drop](const dealii::Point<3>&, double) { return -drop; };
+  return conditions;
 }
 
 /// What the air of the device asks of the coupling.
@@ -71,6 +81,7 @@ double cpu_seconds() {
 }  // namespace
 
 struct ResolvedSuction::Scene {
+  double drop = 0;  ///< of the vacuum chamber below ambient, at the end of the present step [Pa]
   Domain<3> domain;
   Fluid<3> fluid;
   PointLocation<3> location;
@@ -81,7 +92,7 @@ struct ResolvedSuction::Scene {
         const CouplingParameters& coupling, Dem& dem, EffectSet& effects, const Vec3& gravity, double speed,
         MPI_Comm comm)
       : domain(device_domain(device, p.mesh, comm)),
-        fluid(air_parameters(p, suction), domain),
+        fluid(air_parameters(p, suction), domain, air_conditions(air_parameters(p, suction), domain, drop)),
         solid(p.resistance, p.margin, p.reach > 0 ? p.reach : 2 * device.hole_diameter, location,
               fluid.layout(), comm),
         coupled(device_coupling(coupling), 1, fluid, location, dem, effects,
@@ -121,6 +132,12 @@ void ResolvedSuction::begin(Dem& dem) {
   saved.clear();
 }
 
+double ResolvedSuction::chamber_drop(double time) const {
+  SuctionParameters now = suction;
+  now.vacuum *= std::min(1.0, time / parameters.ramp);
+  return suction_balance(now, disc_area + leak_area(suction, device)).drop;
+}
+
 void ResolvedSuction::step(Dem& dem, double dt) {
   Scene& s = *scene;
   const auto turned = dem.walls()[disc].motion.angle;
@@ -137,6 +154,7 @@ void ResolvedSuction::step(Dem& dem, double dt) {
   for (int k = 0; k < device.n_holes(); ++k)
     if (device.exposure(device.hole_angle(k, angle)) > 0) mouths.push_back(device.hole_centre(k, angle));
   s.solid.set_places(mouths);
+  s.drop = chamber_drop(s.fluid.time() + dt);
   s.coupled.advance(dt);
 
   const Bodies& bodies = s.coupled.bodies();
@@ -147,9 +165,13 @@ void ResolvedSuction::step(Dem& dem, double dt) {
   const MassBalance& mass = s.fluid.mass_balance();
   const double out = mass.outflow.at("suction"), in = -mass.outflow.at("ambient");
   const auto sliding = s.fluid.interface_flow();
-  balance = {-suction.vacuum * std::min(1.0, s.fluid.time() / parameters.ramp), out};
-  tally.volume += out * dt;
-  tally.energy -= mass.power.at("suction") * dt;
+  const double speed = std::sqrt(2 * s.drop / suction.density);
+  if (speed > 0)
+    disc_area += (1 - std::exp(-dt / parameters.ramp)) * (std::max(0.0, out) / speed - disc_area);
+  const double leak = leak_area(suction, device) * speed;
+  balance = {s.drop, out + leak};
+  tally.volume += balance.flow * dt;
+  tally.energy += (leak * s.drop - mass.power.at("suction")) * dt;
   tally.mass_error = std::max({tally.mass_error, mass.largest, mass.total});
   tally.volume_error = std::max(tally.volume_error, std::abs(out - in) / mass.flow);
   tally.interface_error = std::max(tally.interface_error, std::abs(sliding[1] - sliding[0]) / mass.flow);
@@ -217,6 +239,7 @@ std::vector<ResolvedSuction::AxisPoint> ResolvedSuction::along_hole(int hole) co
 
 void ResolvedSuction::save(std::ostream& out) const {
   write_binary(out, tally);
+  write_binary(out, disc_area);
   std::ostringstream state;
   if (scene) {
     scene->fluid.save(state);
@@ -228,6 +251,7 @@ void ResolvedSuction::save(std::ostream& out) const {
 
 void ResolvedSuction::load(std::istream& in) {
   read_binary(in, tally);
+  read_binary(in, disc_area);
   std::vector<char> text;
   read_binary(in, text);
   saved.assign(text.begin(), text.end());

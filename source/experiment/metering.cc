@@ -174,14 +174,13 @@ double Metering::Gathered::work() const {
 }
 
 void Metering::check_resolved(const Parameters& p) const {
-  const auto unknown = [&](const char* entry, bool set) {
-    if (set)
-      p.reject(entry, "the computed air does not know it", "leave it at 0, or set Air/Model = hole sinks");
-  };
-  unknown("Suction/Fan flow", suction.fan_flow > 0);
-  unknown("Effects/Seal leak/Strength", suction.leak_strength > 0);
-  unknown("Effects/Suction line loss/Strength", suction.line_strength > 0);
-  unknown("Effects/Disc vibration/Strength", suction.vibration_strength > 0);
+  const double travel = suction.vibration_strength * suction.vibration_amplitude;
+  if (travel > 0.5 * resolved.mesh.face_cell)
+    p.reject(
+        "Effects/Disc vibration/Amplitude",
+        "the mesh of the computed air does not shake with the disc, which is right only for a travel below "
+        "half a cell at the disc's face",
+        "use a smaller one, or Air/Model = hole sinks");
   if (!suction.blocking)
     p.reject("Suction/Seeds block holes", "seeds always block the holes of the computed air",
              "set it to true, or Air/Model = hole sinks");

@@ -34,6 +34,8 @@ void Fluid<dim, degree>::Implementation::advance(double dt, const Exchange<dim>&
   coefficients.time = TimeScheme::bdf1(dt);
   if (!(dt > 0) || !std::isfinite(dt)) fail("the time step is not a positive number.", "Give dt > 0.");
   if (steps_since_start > 0) coefficients.time = TimeScheme::bdf2(dt, dt_old);
+  if (steps_since_start > 0 && parameters.convecting_velocity == "averaged")
+    coefficients.time = coefficients.time.averaged();
   take(exchange);
   prepare_rotor();
   solve_momentum();

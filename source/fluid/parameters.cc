@@ -23,6 +23,12 @@ void FluidParameters::declare(Parameters& p) {
            "1999, doi:10.1023/A:1009995426001); 0: none, 1: as published.");
   p.number("Eddy constant", eddy_constant, "1", Range::between(0, 1),
            "C_w of the WALE model; published: 0.5 (0.55 to 0.6 in isotropic turbulence).");
+  p.choice(
+      "Convecting velocity", convecting_velocity, {"extrapolated", "averaged"},
+      "The velocity u* of the convection u*.grad u. extrapolated: of second order in the step. averaged: "
+      "mean "
+      "of the last two steps, of first order, for steps far longer than a flow that is given by pressures "
+      "takes to adjust: there extrapolation overshoots from step to step.");
   p.number("Pressure stabilization", pressure_stabilization, "1", Range::between(0, 1),
            "Factor on the stabilisation of the pressure by orthogonal subscales.");
   p.choice(

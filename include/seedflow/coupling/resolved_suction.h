@@ -21,12 +21,12 @@ struct ResolvedSuctionParameters {
 
   DeviceMeshParameters mesh;
   std::string rotor = "sliding";  ///< sliding: the mesh turns with the disc; frozen: it lags
-  double ramp = 5e-3;             ///< the vacuum grows from nothing during this time [s]
-  FluidParameters flow;           ///< turbulence and solvers; the rest is set by the device
-  double resistance = 1e7;        ///< of seeds near holes, see SolidSeeds [kg/(m3 s)]
-  double margin = 0.5;            ///< by which they are larger, in local cells [1]
-  double reach = 0;               ///< of the holes within which seeds are solid [m]; 0: two hole diameters
-  double frozen_angle = 0;        ///< rotor frozen: the mesh is moved on after this angle [rad]; 0: a pitch
+  double ramp = 5e-3;       ///< the vacuum grows from nothing during this time; delay of fan and line [s]
+  FluidParameters flow;     ///< turbulence and solvers; the rest is set by the device
+  double resistance = 1e7;  ///< of seeds near holes, see SolidSeeds [kg/(m3 s)]
+  double margin = 0.5;      ///< by which they are larger, in local cells [1]
+  double reach = 0;         ///< of the holes within which seeds are solid [m]; 0: two hole diameters
+  double frozen_angle = 0;  ///< rotor frozen: the mesh is moved on after this angle [rad]; 0: a pitch
 
   void declare(Parameters& parameters);
 };
@@ -40,6 +40,14 @@ struct ResolvedSuctionParameters {
 ///     pressure gradient acts on them but the hydrostatic one. (The void fraction of Eq. 5 has no meaning
 ///     in cells smaller than a sub-sphere, and a kernel of a seed's width reaches through the disc.)
 ///   * seeds outside the mesh, below the unloading point, in still air.
+///
+/// The pressure at the back of the vacuum chamber is that in balance with fan, suction line and leak
+/// (SuctionBalance). Disc and seeds enter it with their effective area S = Q sqrt(rho/(2 dp)), which the air
+/// in fan and line follows with the delay `ramp`: dS/dt = (Q sqrt(rho/(2 dp)) - S)/ramp. (A line of 1 m and
+/// 25 mm takes some rho L Q/(A dp) = 4 ms; without delay the balance jumps to and fro from step to step.)
+/// What leaks in between disc and chamber is not in the mesh: it joins the flow at the chamber's back. A disc
+/// that shakes along its axis shakes for the seeds; the mesh stands, so the travel must be small against a
+/// cell.
 ///
 /// Rotor "sliding": every step the mesh turns to the disc's angle at the end of the step. Rotor "frozen": the
 /// mesh stands, the flow is that relative to the turning disc (multiple reference frames), and seeds meet the
@@ -96,6 +104,8 @@ class ResolvedSuction {
   struct Scene;
   void begin(Dem& dem);
   void step(Dem& dem, double dt);
+  /// Of the vacuum chamber below ambient at a time [s], for the delayed area [Pa].
+  double chamber_drop(double time) const;
 
   ResolvedSuctionParameters parameters;
   SuctionParameters suction;
@@ -108,7 +118,8 @@ class ResolvedSuction {
   std::unique_ptr<Scene> scene;  ///< from the first step on
   std::string saved;             ///< what load() read, until then
   std::vector<SeedLoad> seed_load, mean_load;
-  SuctionBalance balance;
+  SuctionBalance balance;  ///< of the last step, flow with leak
+  double disc_area = 0;    ///< S, delayed [m2]
   Tally tally;
 };
 

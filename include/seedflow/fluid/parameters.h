@@ -18,6 +18,9 @@ struct FluidParameters {
   double eddy_viscosity = 0;   ///< strength of the WALE model, 0: none (see fluid/eddy_viscosity.h)
   double eddy_constant = 0.5;  ///< C_w [1]
 
+  /// extrapolated: that of second order, 2 u^n - u^(n-1); averaged: (u^n + u^(n-1))/2, see TimeScheme
+  std::string convecting_velocity = "extrapolated";
+
   double pressure_stabilization = 1;       ///< factor on theta, 0..1 (see fluid/step_coefficients.h)
   std::string subscales = "quasi-static";  ///< quasi-static: of the pressure only; dynamic: of all forces
   double streamline_upwinding = 1;         ///< factor on the SUPG time scale
