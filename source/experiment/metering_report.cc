@@ -179,10 +179,10 @@ void write_metering_report(const Metering& m, const Metering::Gathered& gathered
   if (seeds.a >= 0 || seeds.b >= 0) {
     report.heading("Seeds A and B (the paper's Fig. 24)");
     report.paragraph(
-        "A: the first seed that a hole carried alone from the pool past the blade. B: a seed of the first "
-        "hole "
-        "that came to the blade with more than one. Forces are means over a series interval; the contact "
-        "force is "
+        "A: the first seed that a hole carried alone from the pool past the blade, in a short run to the "
+        "blade. B: "
+        "a seed of the first hole that came to the blade with more than one. Forces are means over a series "
+        "interval; the contact force is "
         "what accelerates the seed beside gravity and air.");
     report.figure(radar(record, seeds, "Drag", "N", &SeedSample::drag).svg(), "Drag against time.");
     report.figure(radar(record, seeds, "Pressure force", "N", &SeedSample::pressure).svg(),

@@ -140,14 +140,15 @@ std::vector<int> counts(const SeedingRecord& record, int Passage::*station) {
 
 NamedSeeds named_seeds(const SeedingRecord& record) {
   NamedSeeds named;
-  for (const Passage& p : record.passages()) {
-    if (named.a < 0 && p.carried == 1 && p.cleaned == 1) named.a = p.seeds[0];
-    if (named.b < 0 && p.carried > 1 && p.cleaned >= 0) {
+  for (const bool past_the_blade : {true, false})  // a short run has holes before the blade only
+    for (const Passage& p : record.passages()) {
+      if (past_the_blade && p.cleaned < 0) continue;
+      if (named.a < 0 && p.carried == 1 && (p.cleaned == 1 || !past_the_blade)) named.a = p.seeds[0];
+      if (named.b >= 0 || p.carried <= 1) continue;
       named.b = p.seeds[0];
       for (const long label : p.seeds)  // the one that stays
         if (record.track(static_cast<int>(label)).back().hole == p.hole) named.b = label;
     }
-  }
   return named;
 }
 
