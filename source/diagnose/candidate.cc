@@ -39,7 +39,8 @@ Candidate read_candidate(const std::string& text) {
       throw InputError("Candidates: \"" + text + "\": " + error.what());
     }
     const Unit unit = parts.unit.empty() ? Unit() : parse_unit(parts.unit);
-    return {last, {{path, 0, std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent)}}};
+    const double published = std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent);
+    return {last, {{path, 0, published, "", parts.unit}}};
   }
   std::vector<std::string> names;
   for (const EffectRecord& record : all_effect_records()) {

@@ -38,6 +38,8 @@ int run(const CommandLine&, const std::vector<std::string>& arguments, std::ostr
   const RunOptions options = read_run_options(arguments);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (options.resume)
+    throw InputError("--resume: a diagnosis always goes on where it was interrupted. Leave the option out.");
   const Problem problem = read_problem(options.prm, options.overrides);
   if (options.dry_run) {
     std::ostringstream nobody;

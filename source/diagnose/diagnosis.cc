@@ -36,17 +36,15 @@ std::vector<bool> usable_conditions(const ObservableModel& model, const Eigen::V
   return usable;
 }
 
-void require_enough(const ObservableModel& model, const Split& split) {
-  int training = 0;
-  std::vector<bool> counted(model.conditions().size(), false);
-  for (std::size_t s = 0; s < split.training.size(); ++s)
-    for (const DataPoint& p : model.points())
-      if (p.series == static_cast<int>(s) && split.training[s] && !counted[p.condition])
-        counted[p.condition] = true, ++training;
-  if (training == 0)
-    throw InputError(
-        "No condition is left to train on: all are held out, or their runs failed. Remedy: held_out = no for "
-        "at least one condition whose base run succeeds.");
+/// Errors: RunError if the runs of all conditions to train on failed.
+void require_training(const ObservableModel& model, const std::vector<bool>& usable,
+                      const Diagnosis& answer) {
+  for (std::size_t c = 0; c < usable.size(); ++c)
+    if (usable[c] && !model.conditions()[c].held_out) return;
+  std::string text = "No condition is left to train on:";
+  for (const std::string& remark : answer.remarks) text += "\n  " + remark;
+  throw RunError(text +
+                 "\nRemedy: mend the model until ./seedflow run carries it out under these conditions.");
 }
 
 /// Candidates that change anything, and whose runs succeed.
@@ -182,9 +180,10 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   const long lean = least_runs(model);
   if (problem.budget.runs < lean)
     throw InputError(
-        "The budget of " + std::to_string(problem.budget.runs) +
-        " runs is too small: " + std::to_string(n_candidates) + " candidates and " +
-        std::to_string(n_inputs) + " inputs under " + std::to_string(n_conditions) + " conditions" +
+        (problem.where.count("Runs") ? problem.where.at("Runs") + ": " : "") + "The budget of " +
+        std::to_string(problem.budget.runs) + " runs is too small: " + std::to_string(n_candidates) +
+        " candidates and " + std::to_string(n_inputs) + " inputs under " + std::to_string(n_conditions) +
+        " conditions" +
         (model.repeats() > 1 ? ", repeated " + std::to_string(model.repeats()) + " times," : "") +
         " need at least " + std::to_string(lean) + ". Raise it, or name fewer candidates.");
   const bool frugal = problem.budget.runs < 6 * lean;
@@ -197,6 +196,7 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   // Pre-checks.
   const Eigen::VectorXd& base = responses.base();
   const std::vector<bool> usable = usable_conditions(model, base, answer);
+  require_training(model, usable, answer);
   for (const auto& [quantity, error] : model.add_scatter(responses.settings())) {
     std::ostringstream text;
     text.precision(2);
@@ -207,7 +207,6 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   }
   DataNoise noise(model.points());
   const Split split = split_series(model, noise, usable);
-  require_enough(model, split);
   for (const std::string& effect : model.idle_effects())
     answer.remarks.push_back("The effect \"" + effect +
                              "\" is switched on in the base model and did nothing under any condition.");
@@ -241,7 +240,8 @@ Diagnosis diagnose(const Problem& problem, RunStore& store) {
   const int largest = std::min(problem.budget.largest_names, training_conditions);
   if (largest < problem.budget.largest_names)
     answer.remarks.push_back("Only " + std::to_string(training_conditions) +
-                             " training conditions: at most as many effects can be told apart.");
+                             (training_conditions == 1 ? " training condition" : " training conditions") +
+                             ": at most as many effects can be told apart.");
   std::vector<Tried> tried = select(weighing, noise, split, acting, largest);
 
   const Adequacy gate = adequacy(noise, nothing, split, answer);

@@ -50,19 +50,32 @@ std::string hash(const std::string& text) {
   return digits;
 }
 
+/// An error about the overrides of a condition, said where the condition stands.
+std::string said_of(const Condition& condition, std::string error) {
+  for (const std::string& text : condition.overrides) {
+    const std::string given = '"' + text + '"', as_option = "--set " + given;
+    const std::size_t at = error.find(as_option);
+    if (at != std::string::npos) error.replace(at, as_option.size(), given);
+  }
+  return (condition.where.empty() ? "" : condition.where + ": ") + "condition \"" + condition.name +
+         "\": " + error;
+}
+
 }  // namespace
 
 ObservableModel::ObservableModel(const Problem& p, RunStore& store)
     : problem(p), store(store), observer(observer_of(p)) {
   if (problem.conditions.empty()) throw InputError("The problem has no conditions.");
   identity = hash(read_file(problem.prm) + joined(problem.overrides));
-  for (const Condition& condition : problem.conditions) {
+  const auto checked = [&](const Condition& condition) {
     try {
-      ready.push_back(&prepare(condition));
+      return &prepare(condition);
     } catch (const InputError& error) {
-      throw InputError("condition \"" + condition.name + "\": " + error.what());
+      throw InputError(said_of(condition, error.what()));
     }
-  }
+  };
+  for (const Condition& condition : problem.conditions) ready.push_back(checked(condition));
+  for (const Condition& condition : problem.possible_experiments) checked(condition);
   step_path = ready[0]->time_step;
   read_points();
   choose_candidates();
@@ -71,6 +84,11 @@ ObservableModel::ObservableModel(const Problem& p, RunStore& store)
   allowed = problem.budget.runs;
   for (std::size_t c = 0; c < ready.size(); ++c)
     key_heads.push_back(key_head(problem.conditions[c], wanted[c]));
+}
+
+long ObservableModel::fewest_runs() const {
+  return static_cast<long>(ready.size()) * n_repeats *
+         static_cast<long>(2 + all_nuisances.size() + all_candidates.size());
 }
 
 const PreparedRun& ObservableModel::prepare(const Condition& condition) const {

@@ -71,6 +71,7 @@ Nuisance read_nuisance(const std::string& text) {
     const NumberWithUnit parts = split_unit(size);
     const Unit unit = parts.unit.empty() ? Unit() : parse_unit(parts.unit);
     nuisance.relative = parts.unit == "%";
+    nuisance.unit = parts.unit;
     nuisance.standard_deviation = std::stod(parts.number) * unit.factor * std::pow(10.0, unit.exponent);
   } catch (const InputError& error) {
     fail(error.what());
@@ -88,7 +89,8 @@ Problem read_problem(const std::string& file, const std::vector<std::string>& ov
   problem.overrides = split.model;
   if (const ParameterLine line = find_parameter_line(file, {}, "Experiment"); !line.name.empty())
     throw InputError(line.where + ": this is the parameter file of an experiment (" + line.value +
-                     "). A diagnosis has a file of its own:\n  set Model        = " +
+                     "), which runs with\n  ./seedflow run " + file +
+                     "\nA diagnosis has a file of its own:\n  set Model        = " +
                      std::filesystem::path(file).filename().string() +
                      "\n  set Measurements = measurements.csv\n  set Conditions   = conditions.csv\n"
                      "doc/diagnosis.md tells what stands in the two; prm/diagnosis/ has examples.");
@@ -101,8 +103,18 @@ Problem read_problem(const std::string& file, const std::vector<std::string>& ov
   problem.conditions = read_conditions(input.conditions);
   if (!input.possible_experiments.empty())
     problem.possible_experiments = read_conditions(input.possible_experiments);
-  for (const std::string& text : input.candidates) problem.candidates.push_back(read_candidate(text));
-  for (const std::string& text : input.nuisances) problem.nuisances.push_back(read_nuisance(text));
+  for (const char* entry : {"Candidates", "Nuisances", "Runs", "Conditions"})
+    if (const ParameterLine line = find_parameter_line(file, split.own, entry); !line.name.empty())
+      problem.where[entry] = line.where;
+  const auto read_list = [&](const char* entry, const auto& texts, const auto& read, auto& into) {
+    for (const std::string& text : texts) try {
+        into.push_back(read(text));
+      } catch (const InputError& error) {
+        throw InputError(problem.where[entry] + ": " + error.what());
+      }
+  };
+  read_list("Candidates", input.candidates, read_candidate, problem.candidates);
+  read_list("Nuisances", input.nuisances, read_nuisance, problem.nuisances);
   problem.budget = {input.runs, input.largest_names, input.repeats};
   return problem;
 }

@@ -81,6 +81,10 @@ int run(const CommandLine& program, const Arguments& arguments, std::ostream&) {
   const RunOptions options = read_run_options(arguments);
   const ParameterLine line = find_parameter_line(options.prm, options.overrides, "Experiment");
   const std::vector<std::string> names = names_of(program.experiments);
+  if (line.name.empty() && !find_parameter_line(options.prm, options.overrides, "Measurements").name.empty())
+    throw InputError(options.prm +
+                     ": this is the file of a diagnosis, which is made with\n  ./seedflow diagnose " +
+                     options.prm);
   if (line.name.empty())
     throw InputError(options.prm +
                      ": the entry \"Experiment\" is missing. Add a line `set Experiment = NAME`. " +

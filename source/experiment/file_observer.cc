@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <sstream>
 
@@ -40,20 +42,56 @@ class RunFolder {
   MPI_Comm comm;
 };
 
+/// What such a run says of itself (its report, above all) is gone with its folder.
+class SilentRun {
+ public:
+  SilentRun() : kept{std::cout.rdbuf(nullptr), std::cerr.rdbuf(nullptr)} {}
+  ~SilentRun() {
+    std::cout.rdbuf(kept[0]);
+    std::cerr.rdbuf(kept[1]);
+  }
+  SilentRun(const SilentRun&) = delete;
+  SilentRun& operator=(const SilentRun&) = delete;
+
+ private:
+  std::streambuf* kept[2];
+};
+
+/// Says on standard error how many runs were made, every ten seconds at most, on the first process.
+class Progress {
+ public:
+  void count() {
+    ++n;
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const auto now = std::chrono::steady_clock::now();
+    if (rank != 0 || now - said < std::chrono::seconds(10)) return;
+    std::cerr << n << (n == 1 ? " run" : " runs") << " made by this process" << std::endl;
+    said = now;
+  }
+
+ private:
+  long n = 0;
+  std::chrono::steady_clock::time_point said = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 Observer make_observer(const FileObserver& given) {
   const auto files = std::make_shared<FileObserver>(given);
+  const auto progress = std::make_shared<Progress>();
   Observer observer;
   observer.observables = files->observables;
   observer.uncertainties = files->uncertainties;
   observer.random_entry = files->random_entry;
-  observer.prepare = [files](const std::string& prm, const std::vector<std::string>& overrides) {
+  observer.prepare = [files, progress](const std::string& prm, const std::vector<std::string>& overrides) {
     RunOptions options;
     options.prm = prm;
     options.overrides = overrides;
-    files->read(options, [](const Parameters&) {});  // mistakes are found before anything runs
     PreparedRun run;
+    files->read(options, [&](const Parameters& p) {  // mistakes are found before anything runs
+      if (files->further_uncertainties) run.uncertainties = files->further_uncertainties(p);
+    });
     run.time_step = files->time_step;
     run.value = [files, options](const std::string& path) {
       double value = 0;
@@ -65,14 +103,29 @@ Observer make_observer(const FileObserver& given) {
       files->read(options, [&](const Parameters& p) { value = p.value(path); });
       return value;
     };
-    run.simulate = [files, options](const PreparedRun::Changes& changes,
-                                    const std::vector<WantedValue>& wanted, MPI_Comm comm) {
+    run.unit = [files, options](const std::string& path) {
+      std::string unit;
+      files->read(options, [&](const Parameters& p) { unit = p.unit(path); });
+      return unit;
+    };
+    if (files->range)
+      run.range = [files, options](const std::string& quantity) {
+        CoordinateRange range;
+        files->read(options, [&](const Parameters& p) { range = files->range(p, quantity); });
+        return range;
+      };
+    run.simulate = [files, progress, options](const PreparedRun::Changes& changes,
+                                              const std::vector<WantedValue>& wanted, MPI_Comm comm) {
       RunOptions changed = options;
       changed.comm = comm;
       for (const auto& [path, value] : changes) changed.overrides.push_back(path + "=" + exact_text(value));
       const RunFolder folder(comm);
       changed.output = folder.path;
-      files->run(changed);
+      {
+        const SilentRun silent;
+        files->run(changed);
+      }
+      progress->count();
       MPI_Barrier(comm);  // rank 0 has written
       std::vector<double> values;
       for (const WantedValue& w : wanted) values.push_back(files->value(folder.path, w, changed));

@@ -86,7 +86,7 @@ std::vector<CorrelatedPart> read_correlated_parts(const std::filesystem::path& f
   return parts;
 }
 
-/// Errors: InputError if a part belongs to no value, or is written in other units than the values.
+/// Errors: InputError if a part belongs to no value.
 void add_correlated_parts(const std::vector<CorrelatedPart>& parts, const std::filesystem::path& file,
                           std::vector<Measurement>& measurements) {
   for (const CorrelatedPart& part : parts) {
@@ -94,9 +94,8 @@ void add_correlated_parts(const std::vector<CorrelatedPart>& parts, const std::f
     bool used = false;
     for (Measurement& m : measurements) {
       if (m.quantity != part.quantity) continue;
-      if (m.unit != part.unit || m.coordinate_unit != part.coordinate_unit)
-        throw InputError(where + ": the correlated part must be given in the units of the values of " +
-                         part.quantity + ", " + m.unit + " and " + m.coordinate_unit + ".");
+      m.correlated_unit = part.unit, m.correlated_coordinate_unit = part.coordinate_unit;
+      m.correlated_where = where;
       m.correlated_uncertainty = part.uncertainty;
       m.correlation_length = part.length;
       used = true;
@@ -106,6 +105,10 @@ void add_correlated_parts(const std::vector<CorrelatedPart>& parts, const std::f
 }
 
 }  // namespace
+
+std::string Measurement::where() const {
+  return file + ":" + std::to_string(line);
+}
 
 std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
   const CsvRows csv(file);
@@ -132,6 +135,7 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& file) {
     Measurement m;
     m.condition = field("condition"), m.quantity = field("quantity"), m.unit = field("unit");
     m.coordinate_unit = field("coordinate_unit"), m.line = row.line;
+    m.file = file.string();
     m.coordinate = std::numeric_limits<double>::quiet_NaN();
     for (const char* needed : {"condition", "quantity"})
       if (field(needed).empty()) throw InputError(where + ": the " + needed + " is missing.");
@@ -185,7 +189,7 @@ std::vector<Condition> read_conditions(const std::filesystem::path& file) {
     if (row.fields[name].empty()) throw InputError(where + ": the name of the condition is missing.");
     if (!seen.insert(row.fields[name]).second)
       throw InputError(where + ": the condition \"" + row.fields[name] + "\" stands here twice.");
-    Condition condition{row.fields[name], held_out >= 0 && is_yes(row.fields[held_out], where), {}};
+    Condition condition{row.fields[name], held_out >= 0 && is_yes(row.fields[held_out], where), {}, where};
     for (const Entry& e : entries)
       if (!row.fields[e.column].empty())
         condition.overrides.push_back(e.path + "=" + row.fields[e.column] + e.unit);

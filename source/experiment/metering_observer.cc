@@ -24,6 +24,13 @@ void read(const std::string& prm, const std::vector<std::string>& overrides,
   look(input, parameters);
 }
 
+/// The vacuum.
+double holes_facing(const Metering& m) {
+  double facing = 0;
+  for (int k = 0; k < m.device.n_holes(); ++k) facing += m.device.exposure(m.device.hole_angle(k, 0));
+  return facing;
+}
+
 double value_of(const Metering& metering, const WantedValue& wanted) {
   const SuctionBench bench = suction_bench(metering, wanted.coordinate);
   if (wanted.quantity == "air flow") return bench.flow;
@@ -46,6 +53,17 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
     std::string value;
     read(prm, overrides, [&](const MeteringInput&, const Parameters& p) { value = p.value(path); });
     return value;
+  };
+  run.unit = [prm, overrides](const std::string& path) {
+    std::string unit;
+    read(prm, overrides, [&](const MeteringInput&, const Parameters& p) { unit = p.unit(path); });
+    return unit;
+  };
+  run.range = [prm, overrides](const std::string&) {
+    CoordinateRange range{0, 0, false, "Only these holes face the vacuum."};
+    read(prm, overrides,
+         [&](const MeteringInput& input, const Parameters&) { range.high = holes_facing(input.experiment); });
+    return range;
   };
   run.simulate = [prm, overrides](const PreparedRun::Changes& changes, const std::vector<WantedValue>& wanted,
                                   MPI_Comm) {
@@ -78,8 +96,7 @@ SuctionBench suction_bench(const Metering& m, double covered) {
   const double height = std::sqrt(radius * radius - hole.seat_radius * hole.seat_radius) - hole.seat_depth;
   const CoveredHole::Outcome open = hole.evaluate({}, 1);
   const CoveredHole::Outcome closed = hole.evaluate({{{0, 0, height}, radius}}, 1);
-  double facing = 0;
-  for (int k = 0; k < m.device.n_holes(); ++k) facing += m.device.exposure(m.device.hole_angle(k, 0));
+  const double facing = holes_facing(m);
   if (!(covered >= 0 && covered <= facing))
     throw InputError("covered holes = " + std::to_string(covered) + ": only " + std::to_string(facing) +
                      " holes face the vacuum.");

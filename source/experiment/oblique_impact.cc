@@ -159,6 +159,10 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
   run.value = [base](const std::string& path) {
     return to_si(base->parameters.value(path), base->parameters.unit(path));
   };
+  run.unit = [base](const std::string& path) { return base->parameters.unit(path); };
+  run.range = [](const std::string&) {
+    return CoordinateRange{1e-6, M_PI / 2 - 1e-6, false, "0 is the head-on impact, 90 degrees a miss."};
+  };
   run.simulate = [with](const PreparedRun::Changes& changes, const std::vector<WantedValue>& wanted,
                         MPI_Comm) {
     std::vector<std::string> texts;

@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "seedflow/experiment/command_of.h"
+#include "seedflow/experiment/file_observer.h"
 #include "seedflow/experiment/granular_report.h"
+#include "seedflow/experiment/granular_uncertainties.h"
 #include "seedflow/experiment/repose_angle.h"
 
 namespace seedflow {
@@ -140,6 +142,26 @@ void describe_repose_angle(std::ostream& out, const std::string& section) {
   Parameters parameters;
   input.declare(parameters);
   parameters.describe(out, section);
+}
+
+Observer repose_angle_observer() {
+  FileObserver files;
+  files.run = run_repose_angle;
+  files.read = look_at_checked<Input>;
+  files.observables = {{"angle of repose", "rad", "", "", "mean of the heap's two flanks"},
+                       {"angle left", "rad", "", "", "of the flank on the left, seen from the front"},
+                       {"angle right", "rad", "", "", "of the flank on the right"}};
+  files.further_uncertainties = [](const Parameters& p) {
+    return granular_uncertainties(p, {"Tester/Material", "Tester/Plate material"});
+  };
+  files.value = [](const std::string& folder, const WantedValue& wanted, const RunOptions&) {
+    const std::string name = wanted.quantity == "angle of repose" ? "angle"
+                             : wanted.quantity == "angle left"    ? "angle_left"
+                                                                  : "angle_right";
+    return degree * Summary::read(std::filesystem::path(folder) / "summary.json").observable(name);
+  };
+  files.random_entry = "Filling/Random number";
+  return make_observer(files);
 }
 
 int run_repose_angle_study(const RunOptions& options) {

@@ -7,6 +7,7 @@
 #include "seedflow/experiment/command_of.h"
 #include "seedflow/experiment/file_observer.h"
 #include "seedflow/experiment/granular_report.h"
+#include "seedflow/experiment/granular_uncertainties.h"
 #include "seedflow/experiment/measurements.h"
 #include "seedflow/experiment/rotating_drum.h"
 #include "seedflow/output/svg.h"
@@ -229,20 +230,16 @@ void describe_rotating_drum(std::ostream& out, const std::string& section) {
 Observer rotating_drum_observer() {
   FileObserver files;
   files.run = run_rotating_drum;
-  files.read = [](const RunOptions& options, const std::function<void(const Parameters&)>& look) {
-    Input input(options);
-    Parameters parameters;
-    input.declare(parameters);
-    parameters.read(options.prm, options.overrides);
-    input.experiment.check(parameters);
-    look(parameters);
-  };
+  files.read = look_at_checked<Input>;
   files.observables = {
       {"surface angle", "rad", "", "", "of a straight line through the middle of the bed's contour"},
       {"centre of mass angle", "rad", "", "",
        "of the line from the axis to the centre of mass, to the vertical"}};
   files.uncertainties = {{"mass of the filling", "Filling/Mass", 0.02, true, false},
                          {"speed of the drum", "Drum/Speed", 0.01, true, false}};
+  files.further_uncertainties = [](const Parameters& p) {
+    return granular_uncertainties(p, {"Drum/Barrel material", "Drum/End material"});
+  };
   files.value = [](const std::string& folder, const WantedValue& wanted, const RunOptions&) {
     const Summary summary = Summary::read(fs::path(folder) / "summary.json");
     return degree *

@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "seedflow/base/error.h"
+#include "seedflow/base/units.h"
 #include "seedflow/experiment/file_observer.h"
 #include "seedflow/experiment/settling.h"
 #include "seedflow/output/series.h"
@@ -46,6 +47,10 @@ Observer settling_observer() {
                          {"seed density", "Seeds/Density", 0.005, true, false},
                          {"fluid viscosity", "Air/Dynamic viscosity", 0.02, true, false},
                          {"drag level", "Effects/Drag/Strength", 0.04, true, false}};
+  files.range = [](const Parameters& p, const std::string&) {
+    return CoordinateRange{0, to_si(p.value("Run/End time"), "s"), false,
+                           "The run ends at Run/End time; raise it in the model, or take the point out."};
+  };
   files.value = value;
   files.time_step = "Run/Air step";
   return make_observer(files);

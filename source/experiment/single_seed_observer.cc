@@ -119,6 +119,21 @@ PreparedRun prepare(const std::string& prm, const std::vector<std::string>& over
   base->check(parameters);
   PreparedRun run;
   run.value = [base](const std::string& path) { return base->value(path); };
+  run.unit = [](const std::string& path) {
+    SingleSeedParameters p;
+    Parameters all;
+    p.declare(all);
+    // Components of vectors have names of their own here, "Seeds/Spin x".
+    const bool component = path.size() > 2 && path[path.size() - 2] == ' ' && p.number(path);
+    return all.unit(component ? path.substr(0, path.size() - 2) : path);
+  };
+  run.range = [base](const std::string& quantity) {
+    if (quantity == "drag coefficient")
+      return CoordinateRange{1e-12, std::numeric_limits<double>::infinity(), false,
+                             "A Reynolds number is positive."};
+    return CoordinateRange{std::min(0.0, base->release_time), base->end_time, false,
+                           "The run ends at Run/End time; raise it in the model, or take the point out."};
+  };
   run.simulate = [base](const PreparedRun::Changes& changes, const std::vector<WantedValue>& wanted,
                         MPI_Comm) {
     SingleSeedParameters changed = *base;

@@ -5,8 +5,11 @@
 #include <iostream>
 #include <sstream>
 
+#include "seedflow/base/units.h"
 #include "seedflow/experiment/command_of.h"
+#include "seedflow/experiment/file_observer.h"
 #include "seedflow/experiment/granular_report.h"
+#include "seedflow/experiment/granular_uncertainties.h"
 #include "seedflow/experiment/slope_screening.h"
 
 namespace seedflow {
@@ -156,6 +159,33 @@ void describe_slope_screening(std::ostream& out, const std::string& section) {
   Parameters parameters;
   input.declare(parameters);
   parameters.describe(out, section);
+}
+
+Observer slope_screening_observer() {
+  FileObserver files;
+  files.run = run_slope_screening;
+  files.read = look_at_checked<Input>;
+  files.observables = {
+      {"passing", "1", "area", "1", "mass in a bin over the mass of all seeds, areas 1 to 5"},
+      {"total passing", "1", "", "", "in all five bins"},
+      {"over the end", "1", "", "", "beyond the lower end of the plate"}};
+  // Of a printed plate and an inclinometer.
+  files.uncertainties = {{"hole diameter", "Screen/Hole diameter", 5e-5, false, false},
+                         {"inclination", "Screen/Inclination", 0.2 * degree, false, false}};
+  files.further_uncertainties = [](const Parameters& p) {
+    return granular_uncertainties(p, {"Screen/Material"});
+  };
+  files.range = [](const Parameters&, const std::string&) {
+    return CoordinateRange{1, SlopeScreening::n_areas, true, "Area 1 lies next to the loading area."};
+  };
+  files.value = [](const std::string& folder, const WantedValue& wanted, const RunOptions&) {
+    const std::string name = wanted.quantity == "total passing"  ? "total_passing"
+                             : wanted.quantity == "over the end" ? "over_the_end"
+                                                                 : "area_" + exact_text(wanted.coordinate);
+    return 0.01 * Summary::read(std::filesystem::path(folder) / "summary.json").observable(name);
+  };
+  files.random_entry = "Filling/Random number";
+  return make_observer(files);
 }
 
 int run_slope_screening_study(const RunOptions& options) {

@@ -42,6 +42,7 @@ class CommandLineTest : public testing::Test {
     std::ofstream("note.prm") << "set Experiment = note\n";
     std::ofstream("unknown.prm") << "# nothing\nset Experiment = notes\n";
     std::ofstream("empty.prm") << "";
+    std::ofstream("diagnosis.prm") << "set Model = model.prm\nset Measurements = m.csv\n";
     seen = {};
     command_line.experiments = {{"note", "Notes its options.", note_options, describe_note},
                                 {"other", "The same reference.", note_options, describe_note}};
@@ -97,6 +98,9 @@ TEST_F(CommandLineTest, UnknownExperiment) {
             "empty.prm: the entry \"Experiment\" is missing. Add a line `set Experiment = NAME`. Valid "
             "experiments: "
             "\"note\", \"other\".");
+  EXPECT_EQ(message({"run", "diagnosis.prm"}),
+            "diagnosis.prm: this is the file of a diagnosis, which is made with\n"
+            "  ./seedflow diagnose diagnosis.prm");
 }
 
 TEST_F(CommandLineTest, UnknownCommandAndOption) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ namespace seedflow {
 /// value = absent + a (published - absent), and has the prior N(1, 0.25), zero excluded.
 struct Candidate {
   struct Entry {
-    std::string path;  ///< "Effects/Added mass/Strength"
-    double absent = 0, published = 1;
+    std::string path;                  ///< "Effects/Added mass/Strength"
+    double absent = 0, published = 1;  ///< SI
     /// Path of a number that `published` is a share of, under every condition anew; or "".
     std::string of = "";
+    std::string unit = "";  ///< in which it was written; "": the entry's
   };
   std::string name;
   std::vector<Entry> entries;
@@ -33,7 +35,8 @@ struct Nuisance {
   double standard_deviation = 0.01;
   bool relative = true;  ///< of the value; otherwise in the entry's SI unit
   bool each_condition =
-      false;  ///< every condition has an error of its own whatever its value (a release time)
+      false;              ///< every condition has an error of its own whatever its value (a release time)
+  std::string unit = "";  ///< in which it was written; "": the entry's
 };
 
 struct Budget {
@@ -53,6 +56,7 @@ struct Problem {
   std::vector<Nuisance> nuisances;    ///< empty: those usual for the experiment
   std::vector<Condition> possible_experiments;  ///< to choose from; empty: variations of the conditions
   Budget budget;
+  std::map<std::string, std::string> where = {};  ///< "file:line" of entries of the problem's own file
 };
 
 enum class Verdict { named, none, ambiguous, not_in_catalogue, input_uncertain, numerics_dominate };
@@ -155,8 +159,9 @@ struct Diagnosis {
 class RunStore;
 
 /// Carries out the diagnosis. Errors: InputError for a problem that cannot be posed (unknown conditions,
-/// quantities, entries; wrong units; fewer conditions than parameters); a run that fails is recorded and
-/// survived. `store` remembers runs across diagnoses of the same model.
+/// quantities, entries; wrong units; coordinates that no run has); RunError if all training conditions' base
+/// runs fail; any other run that fails is recorded and survived. `store` remembers runs across diagnoses of
+/// the same model.
 Diagnosis diagnose(const Problem& problem, RunStore& store);
 Diagnosis diagnose(const Problem& problem);
 

@@ -18,6 +18,8 @@ struct FileObserver {
   std::function<void(const RunOptions&, const std::function<void(const Parameters&)>& look)> read;
   std::vector<Observable> observables;
   std::vector<UsualUncertainty> uncertainties;
+  std::function<std::vector<UsualUncertainty>(const Parameters&)> further_uncertainties;  ///< of this model
+  std::function<CoordinateRange(const Parameters&, const std::string& quantity)> range;   ///< may be null
   /// One value [SI] from the files of a finished run.
   std::function<double(const std::string& folder, const WantedValue&, const RunOptions&)> value;
   std::string random_entry = "";  ///< see Observer::random_entry

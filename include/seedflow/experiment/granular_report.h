@@ -65,6 +65,17 @@ std::string used_text(const RunOptions& options) {
   return as_text(parameters);
 }
 
+/// FileObserver::read of an experiment. `Input` declares all entries.
+template <class Input>
+void look_at_checked(const RunOptions& options, const std::function<void(const Parameters&)>& look) {
+  Input input(options);
+  Parameters parameters;
+  input.declare(parameters);
+  parameters.read(options.prm, options.overrides);
+  input.experiment.check(parameters);
+  look(parameters);
+}
+
 /// "2227 seeds of 4 mm (70 sub-spheres each, rigid)".
 std::string seeds_in_words(const GranularRun& run, const GranularParameters& granular);
 /// Kinetic energy per seed against time, logarithmic.

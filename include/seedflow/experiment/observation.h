@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,14 @@ struct WantedValue {
   double coordinate = 0;  ///< SI
 };
 
+/// Where a run gives a quantity that has a coordinate.
+struct CoordinateRange {
+  double low = -std::numeric_limits<double>::infinity();  ///< SI, included, as is high
+  double high = std::numeric_limits<double>::infinity();
+  bool whole = false;  ///< whole numbers only
+  std::string remedy;  ///< for a coordinate outside: "Raise Run/End time."
+};
+
 /// An input whose usual uncertainty the experiment knows.
 struct UsualUncertainty {
   std::string name, path;
@@ -36,6 +45,12 @@ struct PreparedRun {
   /// The present value of any entry as text (an option, true or false). InputError if there is none of that
   /// path; may be empty where the model has no choices that are effects.
   std::function<std::string(const std::string& path)> text = nullptr;
+  /// The SI unit of that entry ("1" for none).
+  std::function<std::string(const std::string& path)> unit;
+  /// Which coordinates of a quantity a run has; known before it runs. Null: all.
+  std::function<CoordinateRange(const std::string& quantity)> range;
+  /// Those that depend on the model, beside the observer's.
+  std::vector<UsualUncertainty> uncertainties;
   using Changes = std::vector<std::pair<std::string, double>>;
   /// Runs with some entries changed, on the processes of a communicator (collective), and returns the wanted
   /// values in order. Independent of earlier calls. Errors: InputError, RunError.

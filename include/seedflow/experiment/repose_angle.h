@@ -37,6 +37,8 @@ inline constexpr double measured = 28.8, deviation = 1.58;  ///< [degrees], mean
 
 int run_repose_angle(const RunOptions& options);
 void describe_repose_angle(std::ostream& out, const std::string& section);
+/// Quantities: angle of repose, angle left, angle right [rad].
+Observer repose_angle_observer();
 int run_repose_angle_study(const RunOptions& options);
 
 }  // namespace seedflow

@@ -54,6 +54,8 @@ inline constexpr double simulated_area_1 = 52.19;  ///< [%], the paper's BS 0.07
 
 int run_slope_screening(const RunOptions& options);
 void describe_slope_screening(std::ostream& out, const std::string& section);
+/// Quantities: passing over area (1 to 5), total passing, over the end, as shares [1].
+Observer slope_screening_observer();
 int run_slope_screening_study(const RunOptions& options);
 
 }  // namespace seedflow
