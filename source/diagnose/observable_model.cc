@@ -86,11 +86,6 @@ ObservableModel::ObservableModel(const Problem& p, RunStore& store)
     key_heads.push_back(key_head(problem.conditions[c], wanted[c]));
 }
 
-long ObservableModel::fewest_runs() const {
-  return static_cast<long>(ready.size()) * n_repeats *
-         static_cast<long>(2 + all_nuisances.size() + all_candidates.size());
-}
-
 const PreparedRun& ObservableModel::prepare(const Condition& condition) const {
   std::vector<std::string> all = condition.overrides;
   all.insert(all.end(), problem.overrides.begin(), problem.overrides.end());

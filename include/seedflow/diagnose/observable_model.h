@@ -64,8 +64,6 @@ class ObservableModel {
   /// all these settings, drawn towards the mean of all conditions with the weight of a few repetitions.
   std::map<std::string, std::pair<double, double>> add_scatter(const std::vector<Setting>& settings);
   int repeats() const { return n_repeats; }
-  /// Base model, half its step, every input and candidate once, under every condition, with the repeats.
-  long fewest_runs() const;
   /// From now on so many runs more than were asked for so far are allowed.
   void allow(long runs) { allowed = runs; }
   bool out_of_budget() const { return refused; }
