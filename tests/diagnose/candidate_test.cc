@@ -125,8 +125,9 @@ TEST(Candidates, ADryRunListsThemAndRunsNothing) {
             0);
   EXPECT_NE(said.str().find("Size distribution, Multi-contact normalisation, Air drag\n"), std::string::npos)
       << said.str();
-  // Eight candidates (all of contacts and the three), two inputs, base and winner, twice.
-  EXPECT_NE(said.str().find("at least 24,"), std::string::npos) << said.str();
+  // Eight candidates (all of contacts and the three), six inputs (two of the drum, diameter, density,
+  // friction with both materials), base and winner, twice.
+  EXPECT_NE(said.str().find("at least 32,"), std::string::npos) << said.str();
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
