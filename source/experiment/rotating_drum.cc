@@ -67,8 +67,10 @@ void RotatingDrum::check(const Parameters& p) {
     p.reject("Run/Series interval", "it is longer than the run", "use a shorter one");
   if (plateau_from >= revolutions)
     p.reject("Drum/Plateau from", "the run ends before", "use less than Drum/Revolutions");
-  if (radius < 3 * granular.model.diameter || length < 2 * granular.model.diameter)
-    p.reject("Drum/Radius", "the drum is only a few seeds large", "use a larger drum or smaller seeds");
+  if (radius < 3 * granular.model.diameter)
+    p.reject("Drum/Radius", "it is less than three seeds", "use a larger drum or smaller seeds");
+  if (length < 2 * granular.model.diameter)
+    p.reject("Drum/Length", "it is less than two seeds", "use a longer drum or smaller seeds");
 }
 
 GranularScene RotatingDrum::scene(Gathered& gathered, const std::filesystem::path& folder) const {

@@ -3,22 +3,11 @@
 
 #include "seedflow/experiment/repose_angle.h"
 #include "seedflow/experiment/slope_screening.h"
+#include "soft_spheres.h"
 #include "tiny_run.h"
 
 namespace seedflow {
 namespace {
-
-const char* const soft_spheres = R"(
-subsection Seeds
-  set Sub-spheres = 1
-end
-subsection Materials
-  set Shear modulus factor = 0.001
-end
-subsection Seeds motion
-  set Time step = 4e-5 s
-end
-)";
 
 const char* const small_heap = R"(
 set Experiment = repose angle
@@ -37,16 +26,6 @@ subsection Tester
   set Outlet = 18 mm
   set Drop = 24 mm
   set Floor width = 110 mm
-end
-subsection Contact pairs
-  subsection seed - seed
-    set Rolling friction = 0.3
-    set Static friction  = 0.6
-  end
-  subsection seed - photosensitive resin
-    set Rolling friction = 0.3
-    set Static friction  = 0.6
-  end
 end
 )";
 
@@ -84,7 +63,7 @@ class GranularObservers : public TinyRun {
 };
 
 TEST_F(GranularObservers, HeapGivesWhatItsRunLeaves) {
-  const std::string prm = write("heap.prm", std::string(small_heap) + soft_spheres);
+  const std::string prm = write("heap.prm", std::string(small_heap) + soft_spheres + rough_contacts);
   const Observer observer = repose_angle_observer();
   EXPECT_EQ(observer.random_entry, "Filling/Random number");
   const PreparedRun run = observer.prepare(prm, {});
@@ -102,7 +81,7 @@ TEST_F(GranularObservers, HeapGivesWhatItsRunLeaves) {
 }
 
 TEST_F(GranularObservers, AHeapOfSlipperySpheresIsFlatter) {
-  const std::string prm = write("heap.prm", std::string(small_heap) + soft_spheres);
+  const std::string prm = write("heap.prm", std::string(small_heap) + soft_spheres + rough_contacts);
   const PreparedRun run = repose_angle_observer().prepare(prm, {});
   const double rough = run.observe({}, {{"angle of repose"}})[0];
   const double smooth = run.observe({{"Contact pairs/seed - seed/Rolling friction", 0},
@@ -113,7 +92,7 @@ TEST_F(GranularObservers, AHeapOfSlipperySpheresIsFlatter) {
 }
 
 TEST_F(GranularObservers, HeapKnowsWhatIsUncertain) {
-  const std::string prm = write("heap.prm", std::string(small_heap) + soft_spheres);
+  const std::string prm = write("heap.prm", std::string(small_heap) + soft_spheres + rough_contacts);
   const PreparedRun run = repose_angle_observer().prepare(prm, {});
   for (const char* path : {"Seeds/Diameter", "Seeds/Density", "Contact pairs/seed - seed/Static friction",
                            "Contact pairs/seed - photosensitive resin/Static friction",

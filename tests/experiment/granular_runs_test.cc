@@ -3,25 +3,13 @@
 
 #include "seedflow/experiment/rotating_drum.h"
 #include "seedflow/experiment/slope_screening.h"
+#include "soft_spheres.h"
 #include "tiny_run.h"
 
 namespace seedflow {
 namespace {
 
 namespace fs = std::filesystem;
-
-// 4 mm spheres with a shear modulus of 1.5e5 Pa: overlaps of a few per cent, steps of 5e-5 s.
-const char* const soft_spheres = R"(
-subsection Seeds
-  set Sub-spheres = 1
-end
-subsection Materials
-  set Shear modulus factor = 0.001
-end
-subsection Seeds motion
-  set Time step = 4e-5 s
-end
-)";
 
 const char* const tiny_repose = R"(
 set Experiment = repose angle
@@ -39,17 +27,6 @@ subsection Tester
   set Outlet = 20 mm
   set Drop = 30 mm
   set Floor width = 140 mm
-end
-# Rough enough for so few spheres to form a heap.
-subsection Contact pairs
-  subsection seed - seed
-    set Rolling friction = 0.3
-    set Static friction  = 0.6
-  end
-  subsection seed - photosensitive resin
-    set Rolling friction = 0.3
-    set Static friction  = 0.6
-  end
 end
 )";
 
@@ -94,7 +71,7 @@ class GranularRuns : public TinyRun {
  protected:
   void SetUp() override {
     TinyRun::SetUp();
-    write("repose.prm", std::string(tiny_repose) + soft_spheres);
+    write("repose.prm", std::string(tiny_repose) + soft_spheres + rough_contacts);
     write("screen.prm", std::string(tiny_screen) + soft_spheres);
     write("drum.prm", std::string(tiny_drum) + soft_spheres);
   }
@@ -135,7 +112,8 @@ TEST_F(GranularRuns, ContradictorySettings) {
   refused("screen.prm", {"Seeds motion/Gravity=1, 0, -9.81"}, "gravity must point down");
   refused("drum.prm", {"Run/End time=1 s"}, "Set Drum/Revolutions instead");
   refused("drum.prm", {"Drum/Plateau from=2"}, "the run ends before. Use less than Drum/Revolutions");
-  refused("drum.prm", {"Drum/Radius=5 mm"}, "the drum is only a few seeds large");
+  refused("drum.prm", {"Drum/Radius=5 mm"}, "it is less than three seeds");
+  refused("drum.prm", {"Drum/Length=5 mm"}, "it is less than two seeds");
 }
 
 TEST_F(GranularRuns, UnknownMaterials) {
