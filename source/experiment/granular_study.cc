@@ -9,10 +9,12 @@
 #include <limits>
 #include <sstream>
 
+#include "seedflow/base/error.h"
 #include "seedflow/base/parameter_file.h"
 #include "seedflow/base/parameters.h"
 #include "seedflow/base/together.h"
 #include "seedflow/base/units.h"
+#include "seedflow/experiment/agreement.h"
 #include "seedflow/output/checkpoint.h"
 #include "seedflow/output/folder.h"
 #include "seedflow/output/svg.h"
@@ -51,6 +53,21 @@ std::vector<StudyCase> all_cases_of(const GranularStudyParameters& study) {
               cases.push_back(one);
             }
   return cases;
+}
+
+/// Does the work; why it failed, or "". Other errors than RunError go on. Collective.
+std::string failure_of(const std::function<void()>& work) {
+  std::string reason;
+  try {
+    work();
+  } catch (const RunError& error) {
+    reason = error.what();
+  }
+  // A rank that failed alone cannot go on: the others wait for it within the run.
+  if (!all_ranks_arrive(MPI_COMM_WORLD, 10)) throw RunError(reason);
+  int mine = !reason.empty(), any = 0;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  return any && reason.empty() ? "failed on another process" : reason;
 }
 
 }  // namespace
@@ -133,6 +150,7 @@ bool GranularStudy::carry_out() {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (!options.dry_run) prepare_output_folder(options.output);
   int number = 0;
+  std::vector<StudyCase> made;
   for (const StudyCase& one : all_cases) {
     const RunOptions own = options_of(one);
     ++number;
@@ -142,9 +160,19 @@ bool GranularStudy::carry_out() {
       run(own);
       continue;
     }
-    run_unless_finished(own, run, text_of);
+    const std::string why = failure_of([&] { run_unless_finished(own, run, text_of); });
+    if (why.empty()) {
+      made.push_back(one);
+      continue;
+    }
+    failures.push_back(one.folder_name + ": " + why);
+    if (rank == 0) std::cout << "failed: " << why << std::endl;
   }
-  return !options.dry_run;
+  if (options.dry_run) return false;
+  all_cases = made;
+  if (made.empty())
+    throw RunError("All " + std::to_string(number) + " runs failed. The first is " + failures.front());
+  return true;
 }
 
 Series GranularStudy::series_of(const StudyCase& one) const {
@@ -213,9 +241,15 @@ void GranularStudy::finish(Report& report, const StudyTable& table) const {
     write_file_atomically(folder / "study.csv", csv.str());
     summary.write(folder / "summary.json");
     report.paragraph("The same numbers are in `study.csv`; every run with its own report is in `runs/`.");
+    if (!failures.empty()) report.heading("Runs that failed");
+    for (const std::string& failure : failures) report.paragraph(failure);
     report.write(folder / "report.html");
     std::cout << "report: " << (folder / "report.html").string() << std::endl;
   });
+  if (!failures.empty())
+    throw RunError(std::to_string(failures.size()) + " of " +
+                   std::to_string(failures.size() + all_cases.size()) +
+                   " runs of the study failed, the report has the others. The first is " + failures.front());
 }
 
 }  // namespace seedflow

@@ -80,7 +80,8 @@ void set_entry(RunOptions& options, const std::string& path, const std::string& 
 
 /// Carries out all runs of a study, one after the other, each in <output>/runs/<name>. A run whose
 /// summary.json is there, made with the same parameters, is not repeated; a run with a checkpoint is
-/// continued.
+/// continued. A run that fails (a heap that rolls away, a lost seed) does not end the study: the others are
+/// made, and finish() reports it.
 class GranularStudy {
  public:
   using Run = int (*)(const RunOptions&);
@@ -90,12 +91,13 @@ class GranularStudy {
   GranularStudy(const GranularStudyParameters& study, const RunOptions& options, std::string experiment,
                 Run run, TextOf text_of);
 
-  /// False after a dry run.
+  /// False after a dry run. Errors: RunError if every run failed.
   bool carry_out();
   StudyTable table(const std::vector<std::string>& observables) const;
+  /// All; after carry_out() those that did not fail.
   const std::vector<StudyCase>& cases() const { return all_cases; }
   Series series_of(const StudyCase& one) const;
-  /// Writes study.csv, summary.json and report.html.
+  /// Writes study.csv, summary.json and report.html. Errors: RunError, after that, if runs have failed.
   void finish(Report& report, const StudyTable& table) const;
 
  private:
@@ -107,6 +109,7 @@ class GranularStudy {
   Run run;
   TextOf text_of;
   std::vector<StudyCase> all_cases;
+  std::vector<std::string> failures;  ///< "name: why"
 };
 
 }  // namespace seedflow
