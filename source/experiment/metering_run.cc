@@ -1,5 +1,6 @@
 // Experiment "metering" as a user gets it: run, summary, files.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -142,12 +143,12 @@ NamedSeeds named_seeds(const SeedingRecord& record) {
   NamedSeeds named;
   for (const bool past_the_blade : {true, false})  // a short run has holes before the blade only
     for (const Passage& p : record.passages()) {
-      if (past_the_blade && p.cleaned < 0) continue;
-      if (named.a < 0 && p.carried == 1 && (p.cleaned == 1 || !past_the_blade)) named.a = p.seeds[0];
-      if (named.b >= 0 || p.carried <= 1) continue;
-      named.b = p.seeds[0];
-      for (const long label : p.seeds)  // the one that stays
-        if (record.track(static_cast<int>(label)).back().hole == p.hole) named.b = label;
+      if (p.seeds.empty() || (past_the_blade && p.cleaned < 0)) continue;
+      long stays = -1;  // the first of them that the blade leaves
+      for (const long label : p.seeds)
+        if (stays < 0 && std::count(p.kept.begin(), p.kept.end(), label)) stays = label;
+      if (named.a < 0 && p.carried == 1 && (stays >= 0 || !past_the_blade)) named.a = p.seeds[0];
+      if (named.b < 0 && p.carried > 1) named.b = stays >= 0 ? stays : p.seeds[0];
     }
   return named;
 }

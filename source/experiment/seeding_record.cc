@@ -43,6 +43,13 @@ void SeedingRecord::find_carriers(const Dem& dem, double turned, double speed) {
   }
 }
 
+std::vector<long> SeedingRecord::labels_at(const Dem& dem, int hole) const {
+  std::vector<long> labels;
+  for (int s = 0; s < dem.n_seeds(); ++s)
+    if (carrier[s] == hole) labels.push_back(dem.seed_label(s));
+  return labels;
+}
+
 void SeedingRecord::pass_stations(const Dem& dem, double time, double turned) {
   for (int k = 0; k < device.n_holes(); ++k) {
     const double before = device.hole_angle(k, last_turned), after = device.hole_angle(k, turned);
@@ -50,10 +57,12 @@ void SeedingRecord::pass_stations(const Dem& dem, double time, double turned) {
       Passage& p = passage[open[k]];
       if (passed(before, after, station.carried)) {
         p.carried = now[k];
-        for (int s = 0; s < dem.n_seeds(); ++s)
-          if (carrier[s] == k) p.seeds.push_back(dem.seed_label(s));
+        p.seeds = labels_at(dem, k);
       }
-      if (passed(before, after, station.cleaned)) p.cleaned = now[k];
+      if (passed(before, after, station.cleaned)) {
+        p.cleaned = now[k];
+        p.kept = labels_at(dem, k);
+      }
       if (passed(before, after, station.unloaded)) p.unloaded = now[k], open[k] = -1;
     }
     if (passed(before, after, station.pool)) {
@@ -109,6 +118,7 @@ void SeedingRecord::save(std::ostream& out) const {
     for (const int n : {p.hole, p.carried, p.cleaned, p.unloaded}) write_binary(out, n);
     write_binary(out, p.begun);
     write_binary(out, p.seeds);
+    write_binary(out, p.kept);
   }
   write_binary(out, open);
   write_binary(out, now);
@@ -130,6 +140,7 @@ void SeedingRecord::load(std::istream& in) {
     for (int* value : {&p.hole, &p.carried, &p.cleaned, &p.unloaded}) read_binary(in, *value);
     read_binary(in, p.begun);
     read_binary(in, p.seeds);
+    read_binary(in, p.kept);
   }
   read_binary(in, open);
   read_binary(in, now);

@@ -21,7 +21,7 @@ struct Passage {
   int hole = 0;
   double begun = 0;  ///< [s]
   int carried = -1, cleaned = -1, unloaded = -1;
-  std::vector<long> seeds = {};  ///< labels of those it carried before the blade
+  std::vector<long> seeds = {}, kept = {};  ///< labels of those it carried before and behind the blade
 };
 
 /// What one seed went through, one entry per record: the curves of Fig. 24.
@@ -59,6 +59,7 @@ class SeedingRecord {
 
  private:
   void find_carriers(const Dem& dem, double turned, double speed);
+  std::vector<long> labels_at(const Dem& dem, int hole) const;  ///< of the seeds a hole carries now
   void pass_stations(const Dem& dem, double time, double turned);
   void sample(const Dem& dem, const std::vector<SeedLoad>& loads, double time);
 
