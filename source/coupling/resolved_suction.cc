@@ -34,6 +34,10 @@ void ResolvedSuctionParameters::declare(Parameters& p) {
            "change of the flow.");
   p.number("Eddy viscosity", flow.eddy_viscosity, "1", Range::between(0, 2),
            "Strength of the eddy viscosity of the unresolved turbulence by the WALE model; 0: none.");
+  p.choice("Convecting velocity", flow.convecting_velocity, {"extrapolated", "averaged"},
+           "averaged: mean of the last two steps, smooth in steps of a millisecond. extrapolated: of second "
+           "order, for "
+           "steps that resolve the flow in a hole (below 0.05 ms).");
   p.number("Solid resistance", resistance, "kg/(m3 s)", Range::positive(),
            "Binds the air inside a seed near a hole to the seed's motion. Above 1e6 a seed is tight; larger "
            "values cost iterations.");
