@@ -5,15 +5,10 @@
 #include <fstream>
 
 #include "seedflow/base/error.h"
+#include "seedflow/base/trim.h"
 
 namespace seedflow {
 namespace {
-
-std::string trim(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
 
 /// Whether the line is the statement `keyword` (all small or all capital, as in deal.II); `rest` is what
 /// follows.

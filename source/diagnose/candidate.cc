@@ -5,9 +5,9 @@
 
 #include "seedflow/base/error.h"
 #include "seedflow/base/nearest_name.h"
+#include "seedflow/base/trim.h"
 #include "seedflow/base/units.h"
 #include "seedflow/effects/device_effects.h"
-#include "trim.h"
 
 namespace seedflow {
 

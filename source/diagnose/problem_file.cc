@@ -5,9 +5,9 @@
 
 #include "seedflow/base/error.h"
 #include "seedflow/base/parameter_file.h"
+#include "seedflow/base/trim.h"
 #include "seedflow/base/units.h"
 #include "seedflow/diagnose/candidate.h"
-#include "trim.h"
 
 namespace seedflow {
 

@@ -4,16 +4,12 @@
 #include <sstream>
 
 #include "seedflow/base/error.h"
+#include "seedflow/base/trim.h"
 #include "seedflow/output/folder.h"
 
 namespace seedflow {
 
 namespace {
-
-std::string trim(const std::string& s) {
-  const auto a = s.find_first_not_of(" \t\r"), b = s.find_last_not_of(" \t\r");
-  return a == std::string::npos ? "" : s.substr(a, b - a + 1);
-}
 
 bool all_empty(const std::vector<std::string>& fields) {
   return std::all_of(fields.begin(), fields.end(), [](const std::string& f) { return f.empty(); });

@@ -56,18 +56,17 @@ std::vector<StudyCase> all_cases_of(const GranularStudyParameters& study) {
 }
 
 /// Does the work; why it failed, or "". Other errors than RunError go on. Collective.
-/// \param meeting a communicator of all ranks that is used for nothing else: a rank that fails alone comes to
-/// it while the others are still communicating within the run.
-std::string failure_of(const std::function<void()>& work, MPI_Comm meeting) {
+std::string failure_of(const std::function<void()>& work, Meeting& meeting) {
   std::string reason;
   try {
     work();
   } catch (const RunError& error) {
     reason = error.what();
   }
-  if (!all_ranks_arrive(meeting, 10)) throw RunError(reason);
+  // A rank that failed alone cannot go on: the others wait for it within the run.
+  if (!meeting.all_arrive(reason.empty() ? HUGE_VAL : 10.0 /* s */)) throw RunError(reason);
   int mine = !reason.empty(), any = 0;
-  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, meeting);
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, meeting.comm());
   return any && reason.empty() ? "failed on another process" : reason;
 }
 
@@ -152,8 +151,7 @@ bool GranularStudy::carry_out() {
   if (!options.dry_run) prepare_output_folder(options.output);
   int number = 0;
   std::vector<StudyCase> made;
-  MPI_Comm meeting;
-  MPI_Comm_dup(MPI_COMM_WORLD, &meeting);
+  Meeting meeting(MPI_COMM_WORLD);
   for (const StudyCase& one : all_cases) {
     const RunOptions own = options_of(one);
     ++number;
@@ -171,7 +169,6 @@ bool GranularStudy::carry_out() {
     failures.push_back(one.folder_name + ": " + why);
     if (rank == 0) std::cout << "failed: " << why << std::endl;
   }
-  MPI_Comm_free(&meeting);
   if (options.dry_run) return false;
   all_cases = made;
   if (made.empty())

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "seedflow/base/error.h"
+#include "seedflow/base/trim.h"
 #include "seedflow/base/units.h"
 #include "seedflow/experiment/csv_rows.h"
 #include "seedflow/output/folder.h"
@@ -17,11 +18,6 @@
 namespace seedflow {
 
 namespace {
-
-std::string trim(const std::string& s) {
-  const auto a = s.find_first_not_of(" \t\r"), b = s.find_last_not_of(" \t\r");
-  return a == std::string::npos ? "" : s.substr(a, b - a + 1);
-}
 
 double to_number(const std::string& text, const std::string& where, const std::string& what) {
   char* end = nullptr;

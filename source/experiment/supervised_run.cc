@@ -35,29 +35,13 @@ std::string as_text(const Parameters& parameters) {
   return text.str();
 }
 
-/// Where the ranks find each other when one of them may have failed alone and the others wait elsewhere.
-class SupervisedRun::Meeting {
- public:
-  explicit Meeting(MPI_Comm comm) { MPI_Comm_dup(comm, &own); }
-  ~Meeting() {
-    if (complete) MPI_Comm_free(&own);  // waits for all
-  }
-  Meeting(const Meeting&) = delete;
-  Meeting& operator=(const Meeting&) = delete;
-  bool all_arrive() { return complete = all_ranks_arrive(own, 10.0 /* s */); }
-
- private:
-  MPI_Comm own;
-  bool complete = true;
-};
-
 SupervisedRun::SupervisedRun(const Parameters& p, const RunOptions& run_options, MPI_Comm communicator,
                              Save save_function)
     : parameters(p),
       options(run_options),
       comm(communicator),
       save(std::move(save_function)),
-      meeting(std::make_unique<Meeting>(communicator)) {
+      meeting(communicator) {
   MPI_Comm_rank(comm, &rank);
   if (options.resume) return;
   together(comm, [&] {
@@ -79,7 +63,7 @@ void SupervisedRun::save_state(const std::string& folder, double time) const {
 
 /// Returns what to tell the user; nothing that goes wrong here may hide the failure itself.
 std::string SupervisedRun::save_failed_state(double time) {
-  if (!meeting->all_arrive()) return "";
+  if (!meeting.all_arrive(10.0 /* s */)) return "";
   try {
     save_state("failed", time);
     return "\nThe state at the failure is saved in '" +

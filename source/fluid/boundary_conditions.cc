@@ -7,6 +7,7 @@
 
 #include "seedflow/base/error.h"
 #include "seedflow/base/nearest_name.h"
+#include "seedflow/base/trim.h"
 
 namespace seedflow {
 
@@ -23,11 +24,6 @@ const std::map<std::string, BoundaryType>& type_names() {
       {"slip", BoundaryType::slip},
       {"periodic", BoundaryType::periodic}};
   return names;
-}
-
-std::string trim(const std::string& s) {
-  const auto a = s.find_first_not_of(" \t\n"), b = s.find_last_not_of(" \t\n");
-  return a == std::string::npos ? "" : s.substr(a, b - a + 1);
 }
 
 /// Splits at separators outside parentheses.

@@ -21,4 +21,23 @@ int run_in_agreement(MPI_Comm communicator, const std::function<int()>& work, st
 /// nothing else while one of the ranks may be on its way.
 bool all_ranks_arrive(MPI_Comm communicator, double patience);
 
+/// Where the ranks find each other when one of them may have failed alone and the others still communicate
+/// elsewhere: a communicator of its own.
+class Meeting {
+ public:
+  explicit Meeting(MPI_Comm comm) { MPI_Comm_dup(comm, &own); }
+  ~Meeting() {
+    if (complete) MPI_Comm_free(&own);  // waits for all
+  }
+  Meeting(const Meeting&) = delete;
+  Meeting& operator=(const Meeting&) = delete;
+  /// As all_ranks_arrive().
+  bool all_arrive(double patience) { return complete = all_ranks_arrive(own, patience); }
+  MPI_Comm comm() const { return own; }
+
+ private:
+  MPI_Comm own;
+  bool complete = true;
+};
+
 }  // namespace seedflow

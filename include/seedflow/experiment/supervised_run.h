@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "seedflow/base/parameters.h"
+#include "seedflow/experiment/agreement.h"
 #include "seedflow/experiment/experiment.h"
 #include "seedflow/output/checkpoint.h"
 
@@ -15,7 +16,7 @@ namespace seedflow {
 
 /// A long computation as its supervisor sees it. All functions are called on all ranks.
 struct LongWork {
-  std::string label = "simulated";  ///< in front of the progress line
+  std::string label = "simulated";              ///< in front of the progress line
   double end = 1;                               ///< of what `time` counts, for the progress line
   double checkpoint_interval = 600;             ///< wall time between checkpoints [s]
   std::function<double()> time;                 ///< simulated time [s]
@@ -49,7 +50,6 @@ class SupervisedRun {
   double wall_time() const { return seconds; }
 
  private:
-  class Meeting;
   void save_state(const std::string& folder, double time) const;
   std::string save_failed_state(double time);
 
@@ -58,7 +58,7 @@ class SupervisedRun {
   MPI_Comm comm;
   int rank = 0;
   Save save;
-  std::unique_ptr<Meeting> meeting;
+  Meeting meeting;
   double seconds = 0;
 };
 
