@@ -39,7 +39,7 @@ std::vector<Experiment> experiment_catalogue() {
       {"rotating drum study", "mixing index and surface for the paper's seed models and speeds",
        run_rotating_drum_study, describe_rotating_drum},
       {"metering", "an air-suction disc takes seeds from a chamber and lays them", run_metering,
-       describe_metering, metering_observer},
+       describe_metering, metering_observer, write_metering_geometry},
       {"metering map", "its seeding quality over vacuum, speed and hole diameter", run_metering_map,
        describe_metering}};
 }

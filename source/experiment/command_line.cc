@@ -77,8 +77,8 @@ RunOptions read_run_options(const Arguments& arguments) {
 
 namespace {
 
-int run(const CommandLine& program, const Arguments& arguments, std::ostream&) {
-  const RunOptions options = read_run_options(arguments);
+/// The experiment that the parameter file names.
+const Experiment& experiment_of(const CommandLine& program, const RunOptions& options) {
   const ParameterLine line = find_parameter_line(options.prm, options.overrides, "Experiment");
   const std::vector<std::string> names = names_of(program.experiments);
   if (line.name.empty() && !find_parameter_line(options.prm, options.overrides, "Measurements").name.empty())
@@ -90,9 +90,29 @@ int run(const CommandLine& program, const Arguments& arguments, std::ostream&) {
                      ": the entry \"Experiment\" is missing. Add a line `set Experiment = NAME`. " +
                      suggestion("", names, "experiment"));
   for (const Experiment& experiment : program.experiments)
-    if (experiment.name == line.value) return experiment.run(options);
+    if (experiment.name == line.value) return experiment;
   throw InputError(line.where + ": entry \"Experiment\" = \"" + line.value + "\" is not known. " +
                    suggestion(line.value, names, "experiment"));
+}
+
+int run(const CommandLine& program, const Arguments& arguments, std::ostream&) {
+  const RunOptions options = read_run_options(arguments);
+  return experiment_of(program, options).run(options);
+}
+
+int geometry(const CommandLine& program, const Arguments& arguments, std::ostream&) {
+  RunOptions options = read_run_options(arguments);
+  if (options.resume || options.dry_run)
+    throw InputError("geometry takes no --resume and no --dry-run; it takes --set and --output.");
+  const bool has_output = std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
+    return argument.compare(0, 8, "--output") == 0;
+  });
+  if (!has_output) options.output += "_geometry";
+  const Experiment& experiment = experiment_of(program, options);
+  if (!experiment.geometry)
+    throw InputError(options.prm + ": the experiment \"" + experiment.name +
+                     "\" has no geometry to be written. Use a file of Experiment = metering.");
+  return experiment.geometry(options);
 }
 
 std::string optional_argument(const Arguments& arguments, const std::string& command) {
@@ -163,6 +183,9 @@ std::vector<Command> all_commands(const CommandLine& program) {
   std::vector<Command> all = {
       {"run", "run FILE.prm [--set \"Section/Entry=value\"]... [--output DIR] [--resume] [--dry-run]",
        "compute; `run` may be left out", run},
+      {"geometry", "geometry FILE.prm [--set \"Section/Entry=value\"]... [--output DIR]",
+       "write a metering device's walls (STL) and air mesh (Gmsh), to start a device of your own from",
+       geometry},
       {"parameters", "parameters [SECTION]", "the reference of the parameter files", parameters},
       {"effects", "effects [NAME]", "the catalogue of physical effects", effects},
       {"bench", "bench [NAME]", "benchmarks, written to bench.json", bench},

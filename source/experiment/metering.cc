@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "seedflow/base/binary.h"
+#include "seedflow/base/error.h"
 #include "seedflow/base/together.h"
 #include "seedflow/experiment/granular_report.h"
 #include "seedflow/output/folder.h"
@@ -30,6 +31,7 @@ Metering::Metering() {
 void Metering::declare(Parameters& p) {
   granular.declare(p);
   device.declare(p);
+  surfaces.declare(p);
   {
     const auto section = p.section("Metering", "Motion, what stands in front of the disc, what is drawn.");
     p.number("Speed", speed, "rad/s", Range::positive(), "Of the disc. The paper's: 30 rpm.");
@@ -83,6 +85,7 @@ void Metering::declare(Parameters& p) {
 void Metering::check(const Parameters& p) {
   granular.check(p, {"Metering/Disc material", "Metering/Housing material"});
   device.check(p);
+  surfaces.check(device, p);
   suction.check(p, air_model == "resolved" ? 1e-3 : 5e-4);
   effects.prepare();
   if (air_model == "resolved") check_resolved(p);
@@ -175,7 +178,15 @@ double Metering::Gathered::work() const {
 
 void Metering::check_resolved(const Parameters& p) const {
   const double travel = suction.vibration_strength * suction.vibration_amplitude;
-  if (travel > 0.5 * resolved.mesh.face_cell)
+  const bool own_mesh = !resolved.mesh.file.empty();
+  if (own_mesh) try {
+      check_device_mesh(device, resolved.mesh, MPI_COMM_SELF);
+    } catch (const InputError& error) {
+      p.reject("Device mesh/File", error.what(), "doc/own_device.md says what is needed");
+    }
+  const double cell =
+      travel > 0 && own_mesh ? DeviceMesh(device, resolved.mesh).face_cell() : resolved.mesh.face_cell;
+  if (travel > 0.5 * cell)
     p.reject(
         "Effects/Disc vibration/Amplitude",
         "the mesh of the computed air does not shake with the disc, which is right only for a travel below "

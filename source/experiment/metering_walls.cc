@@ -95,10 +95,9 @@ std::vector<std::array<double, 2>> Metering::blade_teeth(int side) const {
   return edge;
 }
 
-std::vector<Wall> Metering::walls() const {
-  const int disc = granular.materials.number(disc_material);
-  const int housing = granular.materials.number(housing_material);
-  const double depth = device.chamber_depth, r = device.chamber_outer_radius, d = granular.model.diameter;
+Surface Metering::disc_surface() const {
+  if (!surfaces.disc.empty())
+    return Mesh(read_wall_triangles(surfaces.disc, surfaces.unit, {}), Mesh::Side::outside, surfaces.disc);
   Plate plate;
   plate.centre = {0, 0, 0.5 * device.thickness};
   plate.normal = {0, 0, -1};  // the chamfers are on the seeds' side
@@ -113,27 +112,49 @@ std::vector<Wall> Metering::walls() const {
   plate.holes = holes;
   plate.hole_radius = device.hole_radius();
   plate.chamfer_width = plate.chamfer_depth = device.chamfer;
+  return plate;
+}
 
+std::vector<Wall> Metering::walls() const {
+  const int disc = granular.materials.number(disc_material);
+  const int housing = granular.materials.number(housing_material);
+  const double depth = device.chamber_depth, r = device.chamber_outer_radius, d = granular.model.diameter;
   Cylinder filling;
   filling.base = {0, 0, -depth - d};
   filling.radius = r;
   filling.length = depth + d;
   filling.base_cap = filling.end_cap = false;
+  const double edge = device.disc_radius + 3 * d;
+  std::vector<Wall> all = {
+      Wall("disc", disc_surface(), disc), Wall("wall while filling", filling, housing),
+      Wall("housing", Box{{-edge, parts.floor, -depth}, {edge, edge, device.thickness}}, housing)};
+  const auto from_file = [&](const std::string& name, const std::string& file) {
+    all.emplace_back(name, Mesh(read_wall_triangles(file, surfaces.unit, {}), Mesh::Side::both, file),
+                     housing);
+  };
+  if (surfaces.housing.empty())
+    add_chamber(all, housing);
+  else
+    from_file("own housing", surfaces.housing);
+  if (surfaces.blade.empty())
+    add_blade(all, housing);
+  else
+    from_file("own blade", surfaces.blade);
+  return all;
+}
+
+void Metering::add_chamber(std::vector<Wall>& all, int housing) const {
+  const double depth = device.chamber_depth, r = device.chamber_outer_radius, d = granular.model.diameter;
   Cylinder hub;
   hub.base = {0, 0, -depth - d};
   hub.radius = device.chamber_inner_radius;
   hub.length = depth + d + 0.5 * device.thickness;
   hub.side = Cylinder::Side::outside;
-
-  const double edge = device.disc_radius + 3 * d;
-  std::vector<Wall> all = {
-      Wall("disc", plate, disc), Wall("wall while filling", filling, housing),
-      Wall("housing", Box{{-edge, parts.floor, -depth}, {edge, edge, device.thickness}}, housing),
-      Wall("hub", hub, housing),
-      Wall(
-          "chamber wall",
-          Mesh(arc(r, parts.chamber_from, parts.chamber_to, -depth - d, 0), Mesh::Side::both, "chamber wall"),
-          housing)};
+  all.emplace_back("hub", hub, housing);
+  all.emplace_back(
+      "chamber wall",
+      Mesh(arc(r, parts.chamber_from, parts.chamber_to, -depth - d, 0), Mesh::Side::both, "chamber wall"),
+      housing);
   // The divider stands on the chamber wall's beginning and leaves the disc free.
   const Point foot = on_circle(r, parts.chamber_from);
   const double top = -0.2 * r, gap = 0.2e-3;
@@ -144,6 +165,18 @@ std::vector<Wall> Metering::walls() const {
                              top - foot[1],
                              depth - gap},
                    housing);
+  for (const int side : {-1, 1})
+    all.emplace_back(side < 0 ? "tube, outer side" : "tube, inner side",
+                     Rectangle{{parts.tube_position + side * 0.5 * parts.tube_width,
+                                0.5 * (parts.tube_top + parts.floor), -0.5 * (depth + gap)},
+                               {1, 0, 0},
+                               {0, 1, 0},
+                               parts.tube_top - parts.floor,
+                               depth - gap},
+                     housing);
+}
+
+void Metering::add_blade(std::vector<Wall>& all, int housing) const {
   for (const int side : {1, -1}) {
     if (parts.blade_sides != "both" && parts.blade_sides != (side > 0 ? "outer" : "inner")) continue;
     const std::vector<Point> teeth = blade_teeth(side);
@@ -155,16 +188,6 @@ std::vector<Wall> Metering::walls() const {
     const std::string name = side > 0 ? "outer blade" : "inner blade";
     all.emplace_back(name, Mesh(strip(teeth, back, low, high), Mesh::Side::outside, name), housing);
   }
-  for (const int side : {-1, 1})
-    all.emplace_back(side < 0 ? "tube, outer side" : "tube, inner side",
-                     Rectangle{{parts.tube_position + side * 0.5 * parts.tube_width,
-                                0.5 * (parts.tube_top + parts.floor), -0.5 * (depth + gap)},
-                               {1, 0, 0},
-                               {0, 1, 0},
-                               parts.tube_top - parts.floor,
-                               depth - gap},
-                     housing);
-  return all;
 }
 
 SeedPicture Metering::picture(const Dem& dem, double turned, const std::string& title) const {

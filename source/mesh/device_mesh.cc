@@ -13,7 +13,14 @@ using dealii::Point;
 using dealii::Tensor;
 
 void DeviceMeshParameters::declare(Parameters& p) {
-  const auto section = p.section("Device mesh", "Cells of the air in the device, before any refinement.");
+  const auto section = p.section(
+      "Device mesh",
+      "Cells of the air in the device, before any refinement. With a File the other entries than Unit "
+      "are without effect.");
+  p.file("File", file,
+         "Gmsh file (.msh, ASCII, hexahedra) with the air of your own device, in place of the mesh made from "
+         "the entries of Device and those below: doc/own_device.md.");
+  p.number("Unit", unit, "m", Range::positive(), "What 1 means in the file.");
   p.integer("Hole sides", hole_sides, Range::between(2, 32),
             "Cells along a quarter of a hole's circumference.");
   p.integer("Hole rings", hole_rings, Range::between(1, 32),
@@ -64,8 +71,27 @@ std::vector<std::vector<unsigned int>> add_polar_grid(HolePlane& plane, const st
   return node;
 }
 
-/// The seed chamber seen along the axis, with its holes.
-HolePlane front_plane(const DeviceGeometry& g, const DeviceMeshParameters& p) {
+/// The vacuum chamber seen along the axis.
+HolePlane back_plane(const DeviceGeometry& g, const DeviceMeshParameters& p) {
+  const double reach = std::min({1.5 * g.hole_diameter, g.pitch_radius - g.vacuum_inner_radius,
+                                 g.vacuum_outer_radius - g.pitch_radius}) *
+                       (1 - 1e-6);
+  const int across = std::max(2, static_cast<int>(std::lround(2 * reach / p.vacuum_cell)));
+  std::vector<double> strip, angles;
+  for (int i = 0; i <= across; ++i) strip.push_back(g.pitch_radius + reach * (2.0 * i / across - 1));
+  const double arc = g.vacuum_to - g.vacuum_from;
+  const int along = std::max(1, static_cast<int>(std::lround(arc * g.pitch_radius / p.vacuum_cell)));
+  for (int i = 0; i <= along; ++i) angles.push_back(g.vacuum_from + arc * i / along);
+  HolePlane plane;
+  add_polar_grid(plane,
+                 around_strip(g.vacuum_inner_radius, strip, g.vacuum_outer_radius, p.growth, p.largest_cell),
+                 angles, false, [](std::size_t, std::size_t) { return false; });
+  return plane;
+}
+
+}  // namespace
+
+HolePlane seed_chamber_plane(const DeviceGeometry& g, const DeviceMeshParameters& p) {
   const int m = p.hole_sides, n_holes = g.n_holes();
   const double mouth = g.hole_radius() + g.chamfer, pitch = g.pitch_radius * g.pitch_angle();
   // Half the width of the square around a hole that its rings fill.
@@ -123,41 +149,25 @@ HolePlane front_plane(const DeviceGeometry& g, const DeviceMeshParameters& p) {
   return plane;
 }
 
-/// The vacuum chamber seen along the axis.
-HolePlane back_plane(const DeviceGeometry& g, const DeviceMeshParameters& p) {
-  const double reach = std::min({1.5 * g.hole_diameter, g.pitch_radius - g.vacuum_inner_radius,
-                                 g.vacuum_outer_radius - g.pitch_radius}) *
-                       (1 - 1e-6);
-  const int across = std::max(2, static_cast<int>(std::lround(2 * reach / p.vacuum_cell)));
-  std::vector<double> strip, angles;
-  for (int i = 0; i <= across; ++i) strip.push_back(g.pitch_radius + reach * (2.0 * i / across - 1));
-  const double arc = g.vacuum_to - g.vacuum_from;
-  const int along = std::max(1, static_cast<int>(std::lround(arc * g.pitch_radius / p.vacuum_cell)));
-  for (int i = 0; i <= along; ++i) angles.push_back(g.vacuum_from + arc * i / along);
-  HolePlane plane;
-  add_polar_grid(plane,
-                 around_strip(g.vacuum_inner_radius, strip, g.vacuum_outer_radius, p.growth, p.largest_cell),
-                 angles, false, [](std::size_t, std::size_t) { return false; });
-  return plane;
+const std::map<dealii::types::boundary_id, std::string>& DeviceMesh::side_names() {
+  static const std::map<dealii::types::boundary_id, std::string> names = {
+      {ambient, "ambient"}, {housing, "housing"},        {disc, "disc"},
+      {hole, "hole"},       {hole_end, "hole end"},      {vacuum_face, "vacuum face"},
+      {suction, "suction"}, {vacuum_wall, "vacuum wall"}};
+  return names;
 }
 
-enum Side : dealii::types::boundary_id {
-  ambient,
-  housing,
-  disc,
-  hole,
-  hole_end,
-  vacuum_face,
-  suction,
-  vacuum_wall
-};
+const std::map<dealii::types::material_id, std::string>& DeviceMesh::part_names() {
+  static const std::map<dealii::types::material_id, std::string> names = {{standing, "standing"},
+                                                                          {turning, "turning"}};
+  return names;
+}
 
-}  // namespace
-
-DeviceMesh::DeviceMesh(const DeviceGeometry& g, const DeviceMeshParameters& p)
-    : sides{{ambient, "ambient"}, {housing, "housing"},        {disc, "disc"},
-            {hole, "hole"},       {hole_end, "hole end"},      {vacuum_face, "vacuum face"},
-            {suction, "suction"}, {vacuum_wall, "vacuum wall"}} {
+DeviceMesh::DeviceMesh(const DeviceGeometry& g, const DeviceMeshParameters& p) {
+  if (!p.file.empty()) {
+    read_device_mesh(p.file, p.unit, g, coarse);
+    return;
+  }
   std::vector<Point<3>> vertices;
   std::vector<dealii::CellData<3>> cells;
   const auto all = [](const Point<2>&) { return true; };
@@ -173,7 +183,7 @@ DeviceMesh::DeviceMesh(const DeviceGeometry& g, const DeviceMeshParameters& p)
   }
   for (int i = 0; i <= p.hole_layers; ++i)
     levels.push_back({g.chamfer + (t - g.chamfer) * i / p.hole_layers, radius, true});
-  front_plane(g, p).extrude(levels, turning, all, vertices, cells);
+  seed_chamber_plane(g, p).extrude(levels, turning, all, vertices, cells);
 
   levels = {{t, radius, false}};
   for (const double d : graded_layers(g.vacuum_depth, p.vacuum_cell, p.growth, p.largest_cell))
@@ -209,7 +219,7 @@ Domain<3> device_domain(const DeviceGeometry& g, const DeviceMeshParameters& p, 
   domain.require_cells_for_all_ranks();
   Rotor<3> rotor;
   rotor.material = DeviceMesh::turning;
-  rotor.pairs = {{mesh.sides.at(hole_end), mesh.sides.at(vacuum_face)}};
+  rotor.pairs = {{mesh.sides.at(DeviceMesh::hole_end), mesh.sides.at(DeviceMesh::vacuum_face)}};
   domain.set_rotor(rotor);
   return domain;
 }

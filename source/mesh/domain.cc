@@ -2,50 +2,20 @@
 
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 
 #include "seedflow/base/nearest_name.h"
+#include "seedflow/mesh/gmsh_file.h"
 
 namespace seedflow {
 
 namespace {
 
 constexpr const char* box_sides[3][2] = {{"left", "right"}, {"front", "back"}, {"bottom", "top"}};
-
-/// The names of Gmsh's physical groups of dimension dim-1: section $PhysicalNames of an ASCII .msh file.
-std::map<dealii::types::boundary_id, std::string> physical_names(const std::string& file, int dimension) {
-  std::ifstream in(file);
-  if (!in) throw InputError("Mesh file \"" + file + "\" cannot be read. Give the path of a Gmsh .msh file.");
-  std::map<dealii::types::boundary_id, std::string> names;
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("$PhysicalNames", 0) != 0) continue;
-    int n = 0;
-    in >> n;
-    for (int i = 0; i < n; ++i) {
-      int d = 0, id = 0;
-      std::string name;
-      in >> d >> id >> std::ws;
-      std::getline(in, name);
-      const auto open = name.find('"'), close = name.rfind('"');
-      if (!in || open == std::string::npos || close <= open)
-        throw InputError("Mesh file \"" + file + "\": section $PhysicalNames is malformed at entry " +
-                         std::to_string(i + 1) + ".");
-      if (d == dimension - 1) names[id] = name.substr(open + 1, close - open - 1);
-    }
-  }
-  if (names.empty())
-    throw InputError(
-        "Mesh file \"" + file +
-        "\" names no sides. Give every side of the air domain a Physical Surface (in 2D a Physical "
-        "Curve) with a name, and the volume a Physical Volume, and write it as ASCII.");
-  return names;
-}
 
 template <int dim>
 std::map<dealii::types::boundary_id, std::string> names_of_box() {
@@ -74,18 +44,10 @@ Domain<dim>::Domain(const DomainParameters& p, MPI_Comm comm)
     : mesh(std::make_unique<Triangulation>(comm,
                                            dealii::Triangulation<dim>::limit_level_difference_at_vertices)) {
   if (!p.mesh_file.empty()) {
-    side_names = physical_names(p.mesh_file, dim);
-    const auto coarse = std::make_shared<dealii::Triangulation<dim>>();
-    dealii::GridIn<dim> reader(*coarse);
-    std::ifstream in(p.mesh_file);
-    try {
-      reader.read_msh(in);
-    } catch (const std::exception& e) {
-      throw InputError("Mesh file \"" + p.mesh_file + "\" is not a mesh of " +
-                       (dim == 2 ? "quadrilaterals" : "hexahedra") +
-                       " in Gmsh's ASCII format 2 or 4: " + e.what());
-    }
-    build_coarse = [coarse](Triangulation& m) { m.copy_triangulation(*coarse); };
+    const auto file = std::make_shared<GmshMesh<dim>>();
+    read_gmsh(p.mesh_file, 1, *file);
+    side_names = file->sides;
+    build_coarse = [file](Triangulation& m) { m.copy_triangulation(file->coarse); };
   } else {
     std::vector<unsigned int> n;
     dealii::Point<dim> a, b;

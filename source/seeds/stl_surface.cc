@@ -83,7 +83,7 @@ void require_one_body(const TriangleSurface& s, const std::string& name) {
   for (const auto& t : s.triangle)
     if (root(t[0]) != body)
       throw InputError(name + ": the surface has more than one piece, one at " + place(s.vertex[body]) +
-                       ", one at " + place(s.vertex[t[0]]) + "; keep the outer surface of one seed.");
+                       ", one at " + place(s.vertex[t[0]]) + "; keep the outer surface of one body.");
 }
 
 }  // namespace

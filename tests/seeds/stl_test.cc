@@ -189,7 +189,7 @@ TEST(Stl, BadSurfacesAreRejectedWithReasonAndRemedy) {
   const TriangleSurface other = box({2, 0, 0}, {3, 1, 1});
   for (const Vec3& x : other.vertex) bad.vertex.push_back(x);
   for (auto t : other.triangle) bad.triangle.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
-  expect_rejected(ascii(bad), "more than one piece", "one seed");
+  expect_rejected(ascii(bad), "more than one piece", "one body");
   bad = good;
   bad.vertex[3].y = std::nan("");
   expect_rejected(binary(bad), "triangle 1 (from 0): a coordinate is not a finite number", "export");

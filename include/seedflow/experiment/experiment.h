@@ -32,6 +32,9 @@ struct Experiment {
   void (*describe)(std::ostream&, const std::string& section);
   /// How it serves as a model of measurements; null if it does not.
   Observer (*observer)() = nullptr;
+  /// Writes walls and air mesh as files to start from, into the output folder, and says so; null if the
+  /// experiment has none.
+  int (*geometry)(const RunOptions&) = nullptr;
 };
 
 /// All experiments.

@@ -14,6 +14,7 @@
 #include "seedflow/experiment/seeding_quality.h"
 #include "seedflow/experiment/seeding_record.h"
 #include "seedflow/output/vtu.h"
+#include "seedflow/seeds/device_surfaces.h"
 
 namespace seedflow {
 
@@ -44,6 +45,7 @@ struct MeteringParts {
 struct Metering {
   GranularParameters granular;
   DeviceGeometry device;
+  DeviceSurfaces surfaces;  ///< instead of disc, housing (chamber wall, divider, hub, tube) and blade
   MeteringParts parts;
   SuctionParameters suction;
   CouplingParameters coupling;
@@ -100,7 +102,12 @@ struct Metering {
   SeedPicture picture(const Dem& dem, double turned, const std::string& title) const;
   double turned_at(double time) const { return speed * time; }
 
+  /// The walls' parts, from parameters.
+  void add_chamber(std::vector<Wall>& walls, int material) const;
+  void add_blade(std::vector<Wall>& walls, int material) const;
+
  private:
+  Surface disc_surface() const;
   void check_resolved(const Parameters& parameters) const;
   void write_air(Gathered& gathered, double time, const std::filesystem::path& output) const;
 };
@@ -116,6 +123,9 @@ struct SuctionBench {
 SuctionBench suction_bench(const Metering& metering, double covered);
 
 int run_metering(const RunOptions& options);
+/// The parametric device as files for a device of one's own: device.msh, disc.stl, housing.stl, blade.stl in
+/// mm; parametric.prm with all entries, own_device.prm, which includes it and names the files.
+int write_metering_geometry(const RunOptions& options);
 void describe_metering(std::ostream& out, const std::string& section);
 Observer metering_observer();
 int run_metering_map(const RunOptions& options);
