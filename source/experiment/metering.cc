@@ -95,6 +95,10 @@ void Metering::check(const Parameters& p) {
              "use less than Seeds/Diameter");
   if (parts.blade_clearance <= 0)
     p.reject("Metering/Blade clearance", "the blade would cut into the disc", "use a positive clearance");
+  if (suction.vibration_strength * suction.vibration_amplitude >= parts.blade_clearance &&
+      (parts.blade_sides != "none" || !surfaces.blade.empty()))
+    p.reject("Effects/Disc vibration/Amplitude", "the shaking disc would strike the blade",
+             "use less than Metering/Blade clearance, or a larger clearance");
   if (parts.blade_clearance + parts.blade_height > device.chamber_depth)
     p.reject("Metering/Blade height", "the blade reaches through the chamber's front cover",
              "use less than Device/Chamber depth minus the clearance");

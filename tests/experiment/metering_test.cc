@@ -14,6 +14,11 @@ TEST_F(MeteringRuns, ImpossibleInputIsNamed) {
   refused({"Suction/Vacuum=3 kPa"}, "a vacuum is below the surroundings");
   refused({"Suction/Vacuum=-20 kPa"}, "incompressible");
   refused({"Metering/Blade clearance=-0.1 mm"}, "the blade would cut into the disc");
+  refused({"Effects/Disc vibration/Strength=1", "Effects/Disc vibration/Amplitude=0.6 mm"},
+          "the shaking disc would strike the blade");
+  refused({"Device/Hole diameter=12 mm"}, "neighbouring holes overlap");
+  refused({"Device/Vacuum inner radius=89.5 mm"}, "the holes do not open into the vacuum chamber");
+  refused({"Device/Vacuum to=-140 deg"}, "the arc must be longer than 0");
   refused({"Metering/Blade height=7 mm"}, "reaches through the chamber's front cover");
   refused({"Device/Hole diameter=4.5 mm"}, "the seeds would be drawn through the holes");
   refused({"Device/Pitch radius=99.5 mm"}, "the holes reach over the disc's rim");

@@ -44,6 +44,16 @@ TEST_F(OwnDevice, WallsTakeTheSameSeeds) {
               0.01 * a.observable("holding_force"));
 }
 
+TEST_F(OwnDevice, WallsAreTheSameAfterAResumption) {
+  const std::vector<std::string> half = {"Run/End time=50 ms"}, whole = {"Run/End time=0.1 s"};
+  ASSERT_EQ(run_here(file("own_device.prm", whole, "one")).status, exit_done);
+  ASSERT_EQ(run_here(file("own_device.prm", half, "parts")).status, exit_done);
+  std::vector<std::string> rest = file("own_device.prm", whole, "parts");
+  rest.push_back("--resume");
+  ASSERT_EQ(run_here(rest).status, exit_done);
+  EXPECT_EQ(read_file(out("parts") / "series.csv"), read_file(out("one") / "series.csv"));
+}
+
 // A polygon of 24 sides with a circle's area: its sides lie within 0.6 % of the radius.
 TEST_F(OwnDevice, DiscIsTheSameSurface) {
   MeteringInput made, own;
