@@ -10,7 +10,7 @@ vacuum_inner = 82; vacuum_outer = 98; vacuum_depth = 15;
 Mesh.RecombineAll = 1;
 Mesh.RecombinationAlgorithm = 2;                        // quadrilaterals only; halves the sizes
 Mesh.MeshSizeExtendFromBoundary = 1;
-fine = 0.8; coarse = 12;
+fine = 0.8; coarse = 12;                              // 0.8: holes of 16 sides; 0.35: of 24
 
 // A circle of four arcs in the plane z = 0.
 Macro Circle4
@@ -44,7 +44,7 @@ For k In {0:drilled-1}
   mouth = news; Plane Surface(mouth) = {loop}; mouths[] += {mouth};
 EndFor
 disc = news; Plane Surface(disc) = {loops[]};
-layers[] = {1, 1, 1, 2, 2}; ends[] = {0.06, 0.15, 0.3, 0.6, 1};
+layers[] = {1, 1, 1, 1, 2, 2}; ends[] = {0.03, 0.08, 0.16, 0.3, 0.6, 1};
 a[] = Extrude {0, 0, -depth} { Surface{disc}; Layers{layers[], ends[]}; Recombine; };
 ambient[] = {a[0]}; turning[] = {a[1]}; housing[] = {a[{2:9}]};
 For k In {0:drilled-1}

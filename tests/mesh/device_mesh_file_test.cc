@@ -1,11 +1,15 @@
 // The air of somebody's own device: what is written is read again, and what cannot be used is named.
 #include <deal.II/grid/grid_tools.h>
 #include <gtest/gtest.h>
+#ifdef DEAL_II_GMSH_WITH_API
+#include <gmsh.h>
+#endif
 
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include "places.h"
 #include "seedflow/base/error.h"
 #include "seedflow/mesh/device_mesh.h"
 #include "seedflow/mesh/gmsh_file.h"
@@ -170,6 +174,35 @@ TEST(DeviceMeshFile, MeshAndEntriesMustAgree) {
       bulged.coarse);
   expect_part(message_for(g, from_file(text_of(bulged))), "must be a body of revolution");
 }
+
+#ifdef DEAL_II_GMSH_WITH_API
+// The example for users, with two of its holes, as Gmsh meshes and writes it (format 4).
+TEST(DeviceMeshFile, ExampleOfTheDocumentationIsAccepted) {
+  std::ifstream in(std::string(places::source_dir) + "/doc/own_device.geo");
+  std::stringstream example;
+  example << in.rdbuf();
+  const std::string geo = testing::TempDir() + "own_device.geo";
+  std::ofstream(geo) << replaced(example.str(), "drilled = 12", "drilled = 2");
+  DeviceMeshParameters p;
+  p.file = testing::TempDir() + "own_device.msh";
+  gmsh::initialize();
+  gmsh::option::setNumber("General.Verbosity", 1);
+  gmsh::open(geo);
+  gmsh::model::mesh::generate(3);
+  gmsh::write(p.file);
+  gmsh::finalize();
+  DeviceGeometry g;  // prm/metering_sector.prm
+  g.drilled = 2;
+  g.first_angle = -165 * M_PI / 180;
+  g.chamber_outer_radius = 96e-3, g.chamber_depth = 10e-3;
+  EXPECT_EQ(message_for(g, p), "accepted");
+  const DeviceMesh mesh(g, p);
+  EXPECT_GT(mesh.coarse.n_active_cells(), 5000u);
+  EXPECT_NEAR(mesh.face_cell(), 0.3e-3, 1e-9);
+  g.first_angle += 0.5 * g.pitch_angle();
+  expect_part(message_for(g, p), "put no hole");
+}
+#endif
 
 TEST(DeviceMeshFile, OtherCellsAreRefused) {
   const std::string tetrahedron = R"($MeshFormat
