@@ -48,6 +48,11 @@ void RotatingDrum::declare(Parameters& p) {
   p.text("Barrel material", barrel_material, "One of Materials/Names.");
   p.text("End material", end_material, "Of the two end walls, which turn with the barrel.");
   p.numbers("Lacey cells", cells, "m", Range::positive(), "Edges of the sample cells. The paper's: 5 mm.");
+  p.choice(
+      "Lacey count", lacey_count, {"seeds", "sub-spheres"},
+      "What is counted in the cells. seeds: by their centres; the view counts those seen through the "
+      "front end. sub-spheres: all of them, the view in columns through the whole drum; a random mixture "
+      "of seeds then stays below 100 %, because sub-spheres of one seed have one colour.");
   p.numbers("Pictures at", picture_at, "1", Range::non_negative(), "Revolutions.");
   p.number("Plateau from", plateau_from, "1", Range::non_negative(),
            "Revolutions from which on mixing index and dynamic angle are averaged.");
@@ -159,8 +164,8 @@ GranularScene RotatingDrum::scene(Gathered& gathered, const std::filesystem::pat
     read_binary(in, gathered.profile.count);
     read_binary(in, gathered.last_revolutions);
   };
-  s.not_of_filling = {"Drum/Speed",        "Drum/Revolutions",  "Drum/Lacey cells", "Drum/Pictures at",
-                      "Drum/Plateau from", "Drum/Profile from", "Drum/Measurements"};
+  s.not_of_filling = {"Drum/Speed",       "Drum/Revolutions",  "Drum/Lacey cells",  "Drum/Lacey count",
+                      "Drum/Pictures at", "Drum/Plateau from", "Drum/Profile from", "Drum/Measurements"};
   return s;
 }
 
@@ -177,6 +182,15 @@ double RotatingDrum::centre_of_mass_angle(const Dem& dem) const {
 }
 
 LaceyIndex RotatingDrum::measure_mixing(const Dem& dem, double cell, bool view) const {
+  const Vec3 edge{cell, view ? 0 : cell, cell};
+  if (lacey_count == "sub-spheres") {
+    std::vector<Vec3> centres;
+    dem.positions(centres);
+    std::vector<bool> coloured;
+    for (int i = 0; i < dem.n_seeds(); ++i)
+      coloured.insert(coloured.end(), dem.first_sphere(i + 1) - dem.first_sphere(i), dem.seed_group(i) == 1);
+    return lacey_index(mixing_cells(centres, coloured, edge));
+  }
   std::vector<double> share;
   if (view) share = visible_shares(seeds_from(front, dem), granular.model.diameter / 16);
   std::vector<Vec3> centres;
@@ -186,7 +200,7 @@ LaceyIndex RotatingDrum::measure_mixing(const Dem& dem, double cell, bool view) 
     centres.push_back(dem.seed_state(i).centre);
     coloured.push_back(dem.seed_group(i) == 1);
   }
-  return lacey_index(mixing_cells(centres, coloured, {cell, view ? 0 : cell, cell}));
+  return lacey_index(mixing_cells(centres, coloured, edge));
 }
 
 SeedPicture RotatingDrum::picture(const Dem& dem, const std::string& title, const BedContour* bed) const {

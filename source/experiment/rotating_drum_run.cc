@@ -56,10 +56,14 @@ void add_mixing(const RotatingDrum& drum, const Series& series, Report& report) 
   if (std::abs(drum.speed / rpm - 40) < 1e-6)
     plot.horizontal = {{reference::measured_plateau, "measured plateau"}};
   plot.caption =
-      "view: seeds seen through the front end, in square cells as in the paper (5 mm); 3d: all seeds in "
-      "cubes. "
-      "100 % is a random mixture; it scatters about that. In 5 mm cells there are only about one and a half "
-      "seeds seen and two in all.";
+      drum.lacey_count == "seeds"
+          ? "view: seeds seen through the front end, in square cells as in the paper (5 mm); 3d: all seeds "
+            "in "
+            "cubes. 100 % is a random mixture; it scatters about that. In 5 mm cells there are only about "
+            "one "
+            "and a half seeds seen and two in all."
+          : "Sub-spheres are counted. view: in square columns through the whole drum; 3d: in cubes. A random "
+            "mixture of seeds stays below 100 %, the more so the fewer seeds a cell holds.";
   report.add(plot);
 }
 
@@ -119,8 +123,9 @@ void write_report(const RotatingDrum& drum, const GranularRun& run, const Rotati
   if (drum.diaphragm && drum.cells.front() == 5e-3) {
     const double view = summary.observable(papers);
     verdict = "Mixing index after " + printed_number(drum.plateau_from) + " revolutions: " + fixed(view, 1) +
-              " % in the view through the end, " + fixed(summary.observable("lacey_3d_5mm"), 1) +
-              " % in 3D (5 mm cells). " + verdict;
+              (drum.lacey_count == "seeds" ? " % in the view through the end, "
+                                           : " % in columns through the drum, ") +
+              fixed(summary.observable("lacey_3d_5mm"), 1) + " % in 3D (5 mm cells). " + verdict;
     if (std::abs(drum.speed / rpm - 40) < 1e-6) {
       const double off = std::abs(view - reference::measured_plateau);
       kind = off < 3   ? Report::Verdict::agrees

@@ -186,6 +186,29 @@ TEST(LaceyTest, ClosedForm) {
   EXPECT_NEAR(lacey_index({{4, 2}, {8, 4}}).index, 0.25 / (0.25 - 0.25 / 6), 1e-15);
 }
 
+// Sub-spheres counted instead of seeds: cells that hold n whole seeds of k each have the same S^2, but Sr^2
+// is that of k n independent things, so a mixture that is random by seeds (index 1) stays below 1.
+TEST(LaceyTest, CountedBySubSpheresARandomMixtureStaysBelowOne) {
+  const int k = 7;
+  // Four cells of two seeds: two mixed, one of each colour: S^2 = p (1 - p)/2, random by seeds.
+  std::vector<Vec3> seeds, sub_spheres;
+  std::vector<bool> seeds_coloured, sub_spheres_coloured;
+  const bool colour[4][2] = {{true, false}, {true, false}, {true, true}, {false, false}};
+  for (int cell = 0; cell < 4; ++cell)
+    for (int s = 0; s < 2; ++s)
+      for (int i = 0; i < k; ++i) {
+        const Vec3 at{cell + 0.4, 0.3 + 0.4 * s, 0.1 * i};
+        sub_spheres.push_back(at);
+        sub_spheres_coloured.push_back(colour[cell][s]);
+        if (i) continue;
+        seeds.push_back(at);
+        seeds_coloured.push_back(colour[cell][s]);
+      }
+  EXPECT_NEAR(lacey_index(mixing_cells(seeds, seeds_coloured, {1, 1, 1})).index, 1, 1e-14);
+  EXPECT_NEAR(lacey_index(mixing_cells(sub_spheres, sub_spheres_coloured, {1, 1, 1})).index,
+              (1 - 1.0 / 2) / (1 - 1.0 / (2 * k)), 1e-14);
+}
+
 // Random mixtures with unequal cells: mean 1 within the statistical error, scatter as predicted.
 TEST(LaceyTest, RandomIsOneWhateverTheCellsHold) {
   std::mt19937 random(3);

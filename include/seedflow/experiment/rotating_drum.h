@@ -35,6 +35,7 @@ struct RotatingDrum {
   bool diaphragm = true;  ///< two colours, one on each side; else one colour
   std::string barrel_material = "photosensitive resin", end_material = "transparent plexiglass";
   std::vector<double> cells{5e-3, 10e-3, 15e-3};  ///< edges of the Lacey cells [m]
+  std::string lacey_count = "seeds";              ///< what is counted in them: seeds | sub-spheres
   std::vector<double> picture_at{1, 1.5, 2};      ///< [revolutions]
   double plateau_from = 4;                        ///< [revolutions]
   double profile_from = 1;                        ///< [revolutions]
@@ -56,7 +57,8 @@ struct RotatingDrum {
   BedContour measure_contour(const Dem& dem) const;
   /// Of the line from the axis to the seeds' centre of mass, against the vertical [rad].
   double centre_of_mass_angle(const Dem& dem) const;
-  /// Of the seeds seen through the front end (`view`), or of all.
+  /// Of the seeds seen through the front end (`view`), or of all. Counted by sub-spheres: of all, in columns
+  /// through the whole drum (`view`) or in cubes.
   LaceyIndex measure_mixing(const Dem& dem, double cell, bool view) const;
   SeedPicture picture(const Dem& dem, const std::string& title, const BedContour* contour = nullptr) const;
 };
