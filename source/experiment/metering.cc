@@ -186,7 +186,7 @@ void Metering::check_resolved(const Parameters& p) const {
   if (own_mesh) try {
       check_device_mesh(device, resolved.mesh, MPI_COMM_SELF);
     } catch (const InputError& error) {
-      p.reject("Device mesh/File", error.what(), "doc/own_device.md says what is needed");
+      p.reject("Device mesh/File", error.what(), "see doc/own_device.md");
     }
   const double cell =
       travel > 0 && own_mesh ? DeviceMesh(device, resolved.mesh).face_cell() : resolved.mesh.face_cell;

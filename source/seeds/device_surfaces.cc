@@ -137,7 +137,31 @@ class DiscCheck {
         refuse("is not where it should be beside " + hole + ": " + mm(beside) +
                " from its axis the faces should be at z = 0 and " + mm(device.thickness) + ", and are at " +
                found);
+      chamfer(c, hole);
     }
+  }
+
+  /// Half way down the chamfer, or without one just beside the hole, in front.
+  void chamfer(const Vec3& c, const std::string& hole) const {
+    const double depth = 0.5 * device.chamfer;
+    const double away = device.hole_radius() + (depth > 0 ? depth : 0.1 * device.hole_radius());
+    const double tolerance = depth > 0 ? 0.8 * depth : off_face * device.thickness;
+    int good = 0;
+    double found = 0;
+    for (int i = 0; i < 8; ++i) {
+      const std::vector<double> z =
+          heights(surface, c.x + away * std::cos(i * M_PI / 4), c.y + away * std::sin(i * M_PI / 4));
+      const auto nearest = std::min_element(
+          z.begin(), z.end(), [&](double a, double b) { return std::abs(a - depth) < std::abs(b - depth); });
+      if (nearest == z.end()) continue;
+      if (std::abs(*nearest - depth) <= tolerance)
+        ++good;
+      else
+        found = *nearest;
+    }
+    if (good < 4)
+      refuse("has no edge as Device/Chamfer says at " + hole + ": " + mm(away) +
+             " from its axis the front should be at z = " + mm(depth) + " and is at " + mm(found));
   }
 
   void between() const {
@@ -216,7 +240,7 @@ void DeviceSurfaces::check(const DeviceGeometry& g, const Parameters& p) const {
       TriangleSurface surface = read_wall_triangles(name, unit, {});
       work(surface);
     } catch (const InputError& error) {
-      p.reject(entry, error.what(), "doc/own_device.md says what is needed");
+      p.reject(entry, error.what(), "see doc/own_device.md");
     }
   };
   file("Device/Disc surface", disc, [&](TriangleSurface& surface) {

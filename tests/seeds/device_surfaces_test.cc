@@ -118,6 +118,19 @@ TEST(DeviceSurfaces, TheFrontIsInItsPlane) {
   EXPECT_EQ(message_for(plate(g, 0.05e-3), g), "accepted");  // within 5 % of 2 mm
 }
 
+TEST(DeviceSurfaces, TheChamferIsInFront) {
+  DeviceGeometry g = four_holes();
+  TriangleSurface turned = plate(g);
+  for (Vec3& x : turned.vertex) x.z = g.thickness - x.z;
+  expect_part(message_for(turned, g),
+              "1.15 mm from its axis the front should be at z = 0.15 mm and is at 0 mm");
+  DeviceGeometry sharp = g;
+  sharp.chamfer = 0;
+  EXPECT_EQ(message_for(plate(sharp), sharp), "accepted");
+  expect_part(message_for(plate(sharp), g), "has no edge as Device/Chamfer says at hole 0");
+  expect_part(message_for(plate(g), sharp), "has no edge as Device/Chamfer says at hole 0");
+}
+
 TEST(DeviceSurfaces, WhatStandsLeavesTheDiscFree) {
   const DeviceGeometry g = four_holes();
   const auto strip = [&](double from, double to, double low, double high) {

@@ -22,9 +22,9 @@ struct DeviceSurfaces {
 };
 
 /// Whether a disc has the holes that the geometry says, seen along the axis: around the axis of each a free
-/// circle of 0.9 to 1.1 times its radius; beside each (at four of eight places around its mouth at least) and
-/// midway between two a front face at z = 0 and a back face at z = thickness, within 5 % of the thickness.
-/// Errors: InputError naming `name`, the hole and what was found.
+/// circle of 0.9 to 1.1 times its radius, with the chamfer in front; beside each (at four of eight places
+/// around its mouth at least) and midway between two a front face at z = 0 and a back face at z = thickness,
+/// within 5 % of the thickness. Errors: InputError naming `name`, the hole and what was found.
 void check_disc(const TriangleSurface& surface, const DeviceGeometry& geometry, const std::string& name);
 
 /// Whether what stands leaves room for the disc: nothing of it inside the disc (by more than 5 % of its
