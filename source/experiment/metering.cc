@@ -41,7 +41,8 @@ void Metering::declare(Parameters& p) {
              "Angle at which the seed chamber's outer wall begins, with a divider that keeps the seeds in.");
     p.number("Chamber to", parts.chamber_to, "rad", Range::any(), "Angle at which it ends.");
     p.choice("Blade", parts.blade_sides, {"both", "outer", "inner", "none"},
-             "The cleaning blade: on both sides of the circle of holes, outside, inside, or none.");
+             "The cleaning blade: outside the circle of holes, inside, on both sides, or none. Between two "
+             "sides that draw together, seeds in pairs can wedge and sweep off all that follow.");
     p.number("Blade angle", parts.blade_angle, "rad", Range::any(), "Of its first tooth.");
     p.number("Blade length", parts.blade_length, "rad", Range::positive(), "Along the circle of holes.");
     p.integer("Teeth", parts.teeth, Range::between(1, 100), "Of each side of the blade.");
@@ -106,7 +107,8 @@ void Metering::check(const Parameters& p) {
     p.reject("Metering/Passage at the last tooth", "the passage widens along the blade",
              "use at most the passage at the first tooth");
   const double back = parts.passage_in + parts.tooth_depth;
-  if (parts.blade_sides != "none" && (device.pitch_radius - back - 2e-3 <= device.chamber_inner_radius))
+  if ((parts.blade_sides == "both" || parts.blade_sides == "inner") &&
+      (device.pitch_radius - back - 2e-3 <= device.chamber_inner_radius))
     p.reject("Metering/Passage at the first tooth", "the inner blade reaches into the hub",
              "use a smaller passage or tooth depth");
   if (!(parts.chamber_to > parts.chamber_from) || parts.chamber_to - parts.chamber_from >= 2 * M_PI)

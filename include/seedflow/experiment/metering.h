@@ -31,7 +31,7 @@ struct MeteringParts {
   double passage_in = 5e-3, passage_out = 2.5e-3;  ///< from the pitch circle to the teeth's tips [m]
   double blade_clearance = 0.5e-3;                 ///< between disc and blade [m]
   double blade_height = 5e-3;                      ///< along the axis [m]
-  std::string blade_sides = "both";                ///< both | outer | inner | none
+  std::string blade_sides = "outer";               ///< both | outer | inner | none
 
   double tube_position = -91e-3, tube_width = 22e-3;  ///< x of its middle [m]
   double tube_top = -45e-3, tube_end = -160e-3;       ///< heights y [m]
