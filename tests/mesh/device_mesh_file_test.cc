@@ -5,7 +5,10 @@
 #include <gmsh.h>
 #endif
 
+#include <unistd.h>
+
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -42,11 +45,16 @@ std::string text_of(const DeviceMesh& mesh, double unit = 1e-3) {
   return out.str();
 }
 
-/// Each rank writes a file of its own.
+/// Each process has a file of its own, because suites run side by side, and takes it away at its end.
+struct MeshFile {
+  const std::string name = testing::TempDir() + "device_" + std::to_string(getpid()) + ".msh";
+  ~MeshFile() { std::remove(name.c_str()); }
+};
+
 DeviceMeshParameters from_file(const std::string& text) {
+  static const MeshFile file;
   DeviceMeshParameters p;
-  p.file = testing::TempDir() + "device_" +
-           std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".msh";
+  p.file = file.name;
   std::ofstream(p.file) << text;
   return p;
 }
