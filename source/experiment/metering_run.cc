@@ -63,6 +63,22 @@ double mean_holding_force(const Metering& m, const SeedingRecord& record) {
   return n > 0 ? sum / n : 0;
 }
 
+/// What computing the air adds, for --dry-run: rate and memory as measured in the sector and in the whole
+/// device.
+std::string air_cost(const Metering& metering) {
+  const double cells = double(device_domain(metering.device, metering.resolved.mesh, MPI_COMM_WORLD)
+                                  .triangulation()
+                                  .n_global_active_cells()),
+               steps = metering.granular.end_time / metering.suction.air_step;
+  int cores = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &cores);
+  std::ostringstream text;
+  text << "Air:        " << cells << " cells, " << std::llround(steps) << " steps of "
+       << metering.suction.air_step << " s: about " << std::ceil(cells * steps / 3.5e4 / cores / 60)
+       << " min and " << std::ceil(200 + 0.017 * cells) << " MiB more\n";
+  return text.str();
+}
+
 }  // namespace
 
 /// Pressure and velocity along the axis of a hole.
@@ -216,7 +232,12 @@ int run_metering(const RunOptions& options) {
   const GranularScene scene = metering.scene(
       gathered, rank == 0 && !options.dry_run ? fs::path(options.output) : fs::path(), options.output);
   GranularJob job(parameters, options, metering.granular, scene);
-  if (options.dry_run) return job.say_what_it_will_be();
+  if (options.dry_run) {
+    const std::string air = metering.air_model == "resolved" ? air_cost(metering) : "";
+    const int status = job.say_what_it_will_be();
+    if (rank == 0) std::cout << air << std::flush;
+    return status;
+  }
   Summary summary;
   summary.text("experiment", "metering");
   summary.text("air", metering.air_model);

@@ -81,6 +81,14 @@ TEST_F(MeteringRuns, ComputedAirRefusesWhatItDoesNotKnow) {
   refused({"Air/Model=resolved", "Suction/Seeds block holes=false"}, "seeds always block the holes");
 }
 
+TEST_F(MeteringRuns, DryRunSaysWhatTheAirCosts) {
+  const ShellResult result =
+      run_in_shell(command(with_computed_air({"Run/End time=60 ms"}, "out", {"--dry-run"})), folder);
+  ASSERT_EQ(result.status, exit_done) << result.err;
+  expect_contains(result.out, "Air:        2752 cells, 60 steps of 0.001 s");
+  EXPECT_FALSE(fs::exists(out()));
+}
+
 // All balances of summary.json are within their limits, or the run would not end well.
 TEST_F(MeteringRuns, ComputedAirTakesSeeds) {
   const RunOutcome result = run_here(with_computed_air({"Run/End time=60 ms", "Run/Field interval=30 ms"}));
