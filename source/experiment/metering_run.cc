@@ -73,7 +73,7 @@ std::string air_cost(const Metering& metering) {
   int cores = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &cores);
   std::ostringstream text;
-  text << "Air:        " << cells << " cells, " << std::llround(steps) << " steps of "
+  text << "Air:        " << std::llround(cells) << " cells, " << std::llround(steps) << " steps of "
        << metering.suction.air_step << " s: about " << std::ceil(cells * steps / 3.5e4 / cores / 60)
        << " min and " << std::ceil(200 + 0.017 * cells) << " MiB more\n";
   return text.str();

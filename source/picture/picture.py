@@ -23,12 +23,29 @@ def fail(message):
 
 def numbers(count):
     def parse(text):
-        values = [float(part) for part in text.split(",")]
-        if len(values) != count:
+        try:
+            values = [float(part) for part in text.split(",")]
+        except ValueError:
+            values = []
+        if len(values) != count or not all(math.isfinite(v) for v in values):
             raise argparse.ArgumentTypeError(f"'{text}' are not {count} numbers separated by commas")
         return values
 
     return parse
+
+
+def positive(text):
+    value = numbers(1)(text)[0]
+    if value <= 0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not above 0")
+    return value
+
+
+def pixels(text):
+    values = numbers(2)(text)
+    if not all(10 <= v <= 20000 for v in values):
+        raise argparse.ArgumentTypeError(f"'{text}' are not two numbers from 10 to 20000")
+    return values
 
 
 class Arguments(argparse.ArgumentParser):
@@ -42,10 +59,10 @@ def read_arguments():
     parser.add_argument("folder", help="output folder of the run")
     parser.add_argument("--time", type=float, help="simulated time [s]; the nearest written one is taken (default: the last)")
     parser.add_argument("--plane", help="where the air is shown, as in z=-0.0005 [m] (default: through the middle of the seeds)")
-    parser.add_argument("--speed", type=float, help="speed of the air at the end of its colours [m/s] (default: the largest)")
+    parser.add_argument("--speed", type=positive, help="speed of the air at the end of its colours [m/s] (default: the largest)")
     parser.add_argument("--from", dest="view", type=numbers(3), metavar="X,Y,Z", help="direction from which it is seen, as in --from=0.3,0.2,-1")
-    parser.add_argument("--zoom", type=float, default=1, help="1: everything is seen (default)")
-    parser.add_argument("--size", type=numbers(2), default=[1600, 1200], metavar="W,H", help="in pixels")
+    parser.add_argument("--zoom", type=positive, default=1, help="1: everything is seen (default)")
+    parser.add_argument("--size", type=pixels, default=[1600, 1200], metavar="W,H", help="in pixels")
     parser.add_argument("--file", help="PNG to write (default: picture.png in the folder)")
     return parser.parse_args()
 
@@ -174,7 +191,7 @@ class Scene:
         # Without a wish: through the middle of the seeds, facing who looks from the front.
         axis, place = "xyz"[[abs(c) for c in front].index(1)], None
         if plane:
-            found = re.fullmatch(r"\s*([xyz])\s*=\s*([-+.\deE]+)\s*", plane)
+            found = re.fullmatch(r"\s*([xyz])\s*=\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*", plane)
             if not found:
                 fail(f"./seedflow picture: --plane '{plane}' is not like z=-0.0005.")
             axis, place = found.group(1), float(found.group(2))
@@ -246,10 +263,16 @@ def main():
     air = scene.show_air(arguments.plane, arguments.speed, front_direction(up))
     if not seeds and not air:
         fail(f"./seedflow picture: there are neither seeds nor air in '{arguments.folder}'.")
+    view = arguments.view or default_view(up)
+    if dot(cross(up, view), cross(up, view)) < 1e-12 * dot(view, view) or not any(view):
+        fail("./seedflow picture: --from must not be along gravity; add a little of another direction, as in --from=0,-0.1,1.")
     scene.show_walls("walls.vtp", 0.25)
     scene.show_walls("moving_walls.pvd", 0.35)
-    scene.look(arguments.view or default_view(up), up, arguments.zoom)
+    scene.look(view, up, arguments.zoom)
     file = arguments.file or os.path.join(arguments.folder, "picture.png")
+    folder = os.path.dirname(os.path.abspath(file))
+    if not os.access(folder, os.W_OK):
+        fail(f"./seedflow picture: nothing can be written into '{folder}'. Give another --file.")
     pv.SaveScreenshot(file, scene.view, TransparentBackground=0)
     print(f"picture: {file} (t = {scene.view.ViewTime:g} s)")
 
